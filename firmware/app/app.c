@@ -129,6 +129,8 @@ static void read_once(app_status_t *status)
     status->unled             = tick_side.control.path.lost;
     status->held              = tick_side.control.limited ||
                    (tick_side.control.holds && tick_side.control.setpoint.now.limited);
+    status->homing            = tick_side.control.homing.stage;
+    status->inputs            = app_control_active(&tick_side.requested, board_inputs());
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -195,7 +197,10 @@ static app_control_seen_t seen_now(void)
         .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
         .speed_e_radps = runs ? m->drive.answer.now.omega_e_radps : m->reading.omega_e_radps,
         .arrived       = runs && m->drive.answer.arrived,
-        .position      = &m->position};
+        .position      = &m->position,
+        .angle         = &m->angle,
+        .inputs        = board_inputs(),
+        .ticks         = m->ticks};
     return seen;
 }
 
@@ -240,6 +245,10 @@ static void aim(void)
     const app_control_seen_t seen = seen_now();
 
     app_control_aim(&tick_side.control, &tick_side.requested, &seen, &tick_side.in.command);
+    if (tick_side.control.homing.fresh) {
+        app_position_set_zero(&tick_side.modes.position, &tick_side.control.homing.zero);
+        tick_side.control.homing.fresh = false;
+    }
 }
 
 /* One piece of the work of app_slow.h. */

@@ -79,10 +79,12 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->torque_share        = running ? app_torque_share(m->drive.config, now_A) : 0.0f;
     s->torque_demand_share = running ? app_torque_share(m->drive.config, s->i_ref_A) : 0.0f;
     s->target_cnt          = 0L;
-    s->beyond              = false; /* as the next three */
+    s->beyond              = false; /* as the next five */
     s->unled               = false;
     s->acknowledged        = false;
     s->held                = false;
+    s->homing              = APP_HOMING_IDLE;
+    s->inputs              = 0U;
 #if APP_DISC_MAP
     s->disc = m->angle.disc.state;
 #endif

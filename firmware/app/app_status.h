@@ -9,6 +9,7 @@
 #include "app_align.h"
 #include "app_angle.h"
 #include "app_commission.h"
+#include "app_homing.h"
 #include "app_objects.h"
 #include "app_path.h"
 #include "app_position.h"
@@ -107,7 +108,7 @@ typedef struct {
     app_commission_status_t commission;
     app_control_state_t     state;             /**< app_control.h, as the next three */
     int16_t                 mode_of_operation; /**< in force */
-    bool                    done;              /**< homing or commissioning has ended */
+    bool                    done;              /**< alignment or commissioning has ended */
     float                   demand_e_radps;    /**< output of the speed ramp */
     app_position_t          position;
     int32_t                 target_cnt;   /**< of the active set-point */
@@ -117,7 +118,9 @@ typedef struct {
     bool                    beyond;       /**< the following error is beyond its window */
     bool                    unled;        /**< no set-points for too long, app_path.h */
     bool                    held;         /**< a limit of position holds the set-point */
-    float                   torque_share; /**< RUN only: by the model, of the rated torque */
+    app_homing_stage_t      homing;
+    uint16_t                inputs;              /**< active ones, BOARD_INPUT_ bits */
+    float                   torque_share;        /**< RUN only: by the model, of the rated torque */
     float                   torque_demand_share; /**< RUN only: the same of their references */
 #if APP_DISC_MAP
     app_disc_state_t disc; /**< map of the disc, app_disc.h */
@@ -127,10 +130,12 @@ typedef struct {
 /** A run follows one of these. */
 typedef enum {
     APP_FOLLOWS_SPEED = 0,
-    APP_FOLLOWS_POSITION,    /**< only drives with positions */
-    APP_FOLLOWS_TORQUE,      /**< only drives with torques */
-    APP_FOLLOWS_PATH,        /**< only drives with positions */
-    APP_FOLLOWS_CYCLIC_SPEED /**< of app_control.h alone, whose command follows the speed */
+    APP_FOLLOWS_POSITION,     /**< only drives with positions */
+    APP_FOLLOWS_TORQUE,       /**< only drives with torques */
+    APP_FOLLOWS_PATH,         /**< only drives with positions */
+    APP_FOLLOWS_CYCLIC_SPEED, /**< of app_control.h alone, whose command follows the speed, as the
+                                   next */
+    APP_FOLLOWS_HOMING
 } app_follows_t;
 
 /** Command of the application modes. */

@@ -67,11 +67,14 @@ enum {
     BOARD_FAULT_INPUT   = 16 /**< the trip input is active; the only one that is not latched */
 };
 
+/** Bits of board_inputs(). */
+enum { BOARD_INPUT_NEGATIVE = 1, BOARD_INPUT_POSITIVE = 2, BOARD_INPUT_HOME = 4 };
+
 /** Non-volatile memory: slots of BOARD_STORE_WORDS words (board_limits.h), erased as a whole. */
 enum { BOARD_STORE_SLOTS = 4 };
 
 /** Number of words that survive board_restart() but not a power cut. */
-#define BOARD_KEPT_WORDS 110U
+#define BOARD_KEPT_WORDS 134U
 
 /** Formats of the serial line. As Modbus requires, each has 11 bits an octet. */
 enum {
@@ -163,6 +166,10 @@ void board_gate_trip(void);
  * Context: any.
  */
 uint16_t board_fault_read(void);
+
+/** Levels of limit and home switches: a bit is set while its input is high. An open wire is high.
+ * Context: any. */
+uint16_t board_inputs(void);
 
 /** Cause of the last reset. Context: any, after board_init(). */
 board_reset_t board_reset_cause(void);

@@ -6,6 +6,8 @@
 
 namespace sdre {
 
+constexpr int counts_per_turn = 10000;
+
 class PositionClient : public RunningClient {
 protected:
     int both(unsigned number)
@@ -32,10 +34,12 @@ protected:
     bool wait_for(int bit, double longest_s)
     {
         const double end_s = served.time_s() + longest_s;
-        while (!has(bit) && served.time_s() < end_s) {
+        bool         found = has(bit);
+        while (!found && served.time_s() < end_s) {
             pass(0.05);
+            found = has(bit);
         }
-        return has(bit);
+        return found;
     }
     void talk(double length_s)
     {

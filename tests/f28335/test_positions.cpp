@@ -10,8 +10,7 @@ using namespace sdre;
 
 namespace {
 
-constexpr int counts_per_turn = 10000;
-constexpr int within_cnt      = 4; // the window of target reached; a shaft at rest hunts by two
+constexpr int within_cnt = 4; // the window of target reached; a shaft at rest hunts by two
 
 class Positions : public PositionClient {};
 
@@ -75,7 +74,7 @@ TEST_F(Positions, TheZeroIsTheIndexMark)
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
     ASSERT_TRUE(control(APP_CONTROL_DISABLE_VOLTAGE));
     talk(0.5);
-    ASSERT_TRUE(write(APP_REGISTERS_MODE_OF_OPERATION, {APP_CONTROL_HOMING}));
+    ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_FIND_ANGLE));
     ASSERT_TRUE(control(APP_CONTROL_SHUT_DOWN));
     ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s));

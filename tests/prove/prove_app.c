@@ -165,6 +165,7 @@ void prove_app_tick(void)
 volatile app_control_t      any_control;
 volatile app_control_seen_t any_seen;
 volatile app_position_t     any_position;
+volatile app_angle_t        any_angle;
 
 static void tick_control(app_mode_t mode, app_control_state_t state)
 {
@@ -185,7 +186,20 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     control.setpoint.now.target_cnt = any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
     control.setpoint.next.target_cnt =
         any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
-    control.velocity = any_bool();
+    control.velocity          = any_bool();
+    control.limited           = any_bool();
+    control.at_switch         = any_bool();
+    control.homing.stage      = any_between(APP_HOMING_IDLE, APP_HOMING_FAILED);
+    control.homing.start_high = any_bool();
+    control.homing.reversed   = any_bool();
+    control.homing.fresh      = any_bool();
+    control.homing.known      = any_bool();
+    control.homing.looked     = any_bool();
+    control.homing.zero.turns = any_long_between(-APP_POSITION_ZERO_TURNS, APP_POSITION_ZERO_TURNS);
+    control.setpoint.now.limited  = any_bool();
+    control.setpoint.next.limited = any_bool();
+    wanted.limits                 = any_bool();
+    wanted.reversed               = any_bool();
     let_be_any(&control.path);
     seen.mode       = mode;
     seen.shorted    = any_bool();
@@ -196,10 +210,18 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     position.known          = any_bool();
     position.have           = any_bool();
     position.actual.turns   = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
-    position.zero.turns     = any_between(-TURN_cnt, TURN_cnt); /* of the first turns */
+    position.homed          = any_bool();
+    position.zero.turns     = any_long_between(-APP_POSITION_ZERO_TURNS, APP_POSITION_ZERO_TURNS);
     position.pole_pairs     = (uint16_t)any_between(1, 64);
     position.positions      = board_config.board.positions;
     seen.position           = &position;
+
+    app_angle_t angle = any_angle;
+    angle.positions   = board_config.board.positions;
+    angle.reference   = any_between(APP_ANGLE_NONE, APP_ANGLE_INDEX);
+    angle.zero_cnt    = (uint16_t)any_between(0, (int)angle.positions - 1);
+    angle.before_cnt  = (uint16_t)any_between(0, (int)angle.positions - 1);
+    seen.angle        = &angle;
 
     app_command_t out;
 
@@ -217,6 +239,8 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     app_control_follow(&control, &out);
     //@ check aim: -POSITION_TURNS_MAX <= control.path.aim.point.at.turns <= POSITION_TURNS_MAX;
     is_path(&control.path);
+    //@ check homing: APP_HOMING_IDLE <= control.homing.stage <= APP_HOMING_FAILED;
+    //@ check zero: -APP_POSITION_ZERO_TURNS <= control.homing.zero.turns <= APP_POSITION_ZERO_TURNS;
 }
 
 /* Entry: a tick of the operator's side in any state, with any objects, whatever the modes do. */

@@ -203,12 +203,15 @@ static void any_registers(void)
     s->position.known              = any_bool();
     s->position.have               = any_bool();
     s->position.actual.turns       = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
-    s->position.zero.turns         = any_between(-TURN_cnt, TURN_cnt);
-    s->position.pole_pairs         = (uint16_t)any_between(1, 64);
-    s->position.positions          = board_config.board.positions;
-    registers.requested.objects    = any_objects;
-    registers.requested.scale.num  = (uint32_t)any_long_between(1, 2147483647L);
-    registers.requested.scale.den  = (uint32_t)any_long_between(1, 2147483647L);
+    s->position.zero.turns = any_long_between(-APP_POSITION_ZERO_TURNS, APP_POSITION_ZERO_TURNS);
+    s->position.homed      = any_bool();
+    s->held                = any_bool();
+    s->homing              = any_between(APP_HOMING_IDLE, APP_HOMING_FAILED);
+    s->position.pole_pairs = (uint16_t)any_between(1, 64);
+    s->position.positions  = board_config.board.positions;
+    registers.requested.objects   = any_objects;
+    registers.requested.scale.num = (uint32_t)any_long_between(1, 2147483647L);
+    registers.requested.scale.den = (uint32_t)any_long_between(1, 2147483647L);
 }
 
 /* Entry: the record is taken, asked for and written, whatever flash and kept words hold. */

@@ -53,7 +53,7 @@ def test_states_ramps_and_stops(drive: Drive) -> None:
     began = until(drive, lambda r: r.mode == Mode.RUN)
     with pytest.raises(DriveError, match="now"):
         drive.write("LINE_FORMAT", 1)
-    drive.write("MODE_OF_OPERATION", 6)  # of the next start
+    drive.write("MODE_OF_OPERATION", -2)  # of the next start
     assert drive.read().mode_of_operation == 3
     drive.write("MODE_OF_OPERATION", 3)
     reached = until(drive, lambda r: bool(r.statusword & 0x400))
@@ -67,9 +67,9 @@ def test_states_ramps_and_stops(drive: Drive) -> None:
     assert 0.2 < stopped.time_s - braking.time_s < 0.6
 
 
-def test_homing_finds_the_angle(drive: Drive) -> None:
+def test_an_alignment_finds_the_angle(drive: Drive) -> None:
     until(drive, lambda r: r.mode == Mode.READY)
-    drive.write("MODE_OF_OPERATION", 6)
+    drive.write("MODE_OF_OPERATION", -2)
     drive.set_run(True)
     until(drive, lambda r: r.mode == Mode.ALIGN)
     found = until(drive, lambda r: bool(r.statusword & 0x1000) and bool(r.statusword & 0x400))

@@ -276,6 +276,11 @@ bool board_can_write(const board_can_frame_t *frame)
     return true;
 }
 
+uint16_t board_inputs(void)
+{
+    return fake_board.inputs;
+}
+
 uint16_t board_can_state(void)
 {
     return fake_board.can_state;

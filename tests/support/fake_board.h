@@ -63,6 +63,7 @@ typedef struct {
     int                  serial_room; /* octets that the transmitter takes before it is full */
     void (*tick)(void);
     uint16_t           updates; /* per PWM period */
+    uint16_t           inputs;
     fake_board_queue_t rx;
     fake_board_queue_t tx;
     fake_board_event_t events[FAKE_BOARD_EVENTS];

@@ -74,8 +74,8 @@ LIBRARY = {
 LEFT = 0.15  # chosen: of the stack
 LIBRARY_words = 16  # chosen: a leaf's return address and the registers that a callee saves
 # The library's square root calls its division. Divisions of 64 bits: chosen, two operands of four
-# words, a quotient, a rest and what a callee saves.
-ROUTINE_words = {"sqrtf": 32, "__aeabi_ldivmod": 48, "__aeabi_uldivmod": 48}
+# words, a quotient, a rest, and what a callee saves beside them.
+ROUTINE_words = {"sqrtf": 32, "__aeabi_ldivmod": 32, "__aeabi_uldivmod": 32}
 # The C28x has eight float registers, this machine 32. A value in s8 .. s15 lies on the stack there
 # and takes two words.
 # Every function saves those of the others that it uses, in its frame.

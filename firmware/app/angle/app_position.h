@@ -6,7 +6,8 @@
  *     counts = (position - zero) N / (2 pi n_p)                                EQ-APP-POSITION-1
  *
  * The zero is the count at which the angle was found, by the index mark or by alignment. It is
- * known while the angle is referenced; homing finds it again. Whole turns are counted in integers:
+ * known while the angle is referenced. Homing replaces it, app_homing.h. Whole turns are counted in
+ * integers:
  * the resolution stays one count after any number of turns.
  */
 #ifndef APP_POSITION_H
@@ -19,6 +20,9 @@
 /** Limit of a target position, in either direction [counts]. */
 #define APP_POSITION_CNT_MAX 1000000000L
 
+/** Electrical turns at which homing may set the zero, either way: a target from there still counts. */
+#define APP_POSITION_ZERO_TURNS (POSITION_TURNS_MAX / 2L)
+
 typedef struct {
     uint16_t   pole_pairs;
     uint16_t   positions;   /**< per turn */
@@ -27,6 +31,7 @@ typedef struct {
     position_t zero;
     bool       have;  /**< there was a sample */
     bool       known; /**< the zero is known */
+    bool       homed; /**< it is that of the last homing */
 } app_position_t;
 
 /** Sets up, with unknown zero. Context: init. */
@@ -39,6 +44,9 @@ APP_MEASURE_PART void app_position_track(app_position_t *p, const app_angle_t *a
 /** Sets the zero: the middle of the reference count that is nearest to the present position.
  * Context: control ISR, once after a reference. */
 void app_position_find_zero(app_position_t *p, const app_angle_t *angle);
+
+/** Sets the zero, as homing found it. Context: control ISR. */
+void app_position_set_zero(app_position_t *p, const position_t *zero);
 
 /** Drops the zero. The next referenced sample gives a new one. Context: control ISR. */
 void app_position_forget(app_position_t *p);

@@ -16,6 +16,13 @@ void app_position_init(app_position_t *p, const app_angle_t *angle)
     p->zero        = origin;
     p->have        = false;
     p->known       = false;
+    p->homed       = false;
+}
+
+void app_position_set_zero(app_position_t *p, const position_t *zero)
+{
+    p->zero  = *zero;
+    p->homed = true;
 }
 
 void app_position_forget(app_position_t *p)
@@ -46,6 +53,7 @@ void app_position_find_zero(app_position_t *p, const app_angle_t *angle)
     p->zero.turns       = p->actual.turns + rounded(turns, TURNS_NEAR);
     p->zero.theta_e_rad = theta_rad;
     p->known            = true;
+    p->homed            = false;
 }
 
 /* Removes whole shaft turns first: the rest is below one turn, and no product overflows. */

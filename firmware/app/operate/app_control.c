@@ -38,9 +38,9 @@ static bool is_stopping(const app_control_t *c, app_control_ask_t ask)
 
 static float deceleration(const app_control_t *c, const app_objects_t *o)
 {
-    const bool fast = (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) &&
-                      ((o->quick_option == APP_CONTROL_QUICK_FAST) ||
-                       (o->quick_option == APP_CONTROL_QUICK_FAST_STAY));
+    const bool fast = c->at_switch || ((c->state == APP_CONTROL_QUICK_STOP_ACTIVE) &&
+                                       ((o->quick_option == APP_CONTROL_QUICK_FAST) ||
+                                        (o->quick_option == APP_CONTROL_QUICK_FAST_STAY)));
     return fast ? o->quick_e_radps2 : o->decel_e_radps2;
 }
 
@@ -68,7 +68,7 @@ static void set_reference(app_control_t *c, const app_objects_t *o, const app_co
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
         const bool still = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT) ||
-                           (c->mode != APP_CONTROL_PROFILE_VELOCITY);
+                           (c->mode != APP_CONTROL_PROFILE_VELOCITY) || c->at_switch;
 
         set_ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
@@ -96,7 +96,8 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     const app_control_ask_t ask       = asked_for(o->controlword);
     const bool              steady    = is_steady(c, seen, ask);
 
-    if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation)) {
+    if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation) &&
+        (o->inputs_used == 0U)) {
         keep_running(c, out);
         c->reset_high = reset_now;
         return;
@@ -117,7 +118,7 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     out->run   = go && app_control_runs(c);
     out->reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE);
     out->commission = go && (c->mode == APP_CONTROL_COMMISSIONING);
-    out->align      = go && (c->mode == APP_CONTROL_HOMING);
+    out->align      = go && (c->mode == APP_CONTROL_FIND_ANGLE);
     if (out->commission) {
         out->bounds = o->bounds;
     }

@@ -21,6 +21,7 @@
 #define APP_CONTROL_H
 
 #include "app_config.h"
+#include "app_homing.h"
 #include "app_setpoint.h"
 #include "app_status.h"
 
@@ -57,15 +58,17 @@ typedef struct {
     bool                reset_high;   /**< bit 7 in the previous tick */
     bool                asked;        /**< app_modes had one tick to begin */
     bool                moved;        /**< app_modes has begun */
-    bool                done;         /**< homing or commissioning has ended */
+    bool                done;         /**< alignment or commissioning has ended */
     float               ref_e_radps;  /**< output of the ramp, as the next three */
     float               goal_e_radps; /**< its end */
     float               up_e_radps;   /**< its step up in a period, >= 0 */
     float               down_e_radps; /**< its step down */
     app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
+    bool                at_switch;    /**< a limit switch stops the motion */
     bool                holds;        /**< positions, cyclic velocity: the set-points have begun */
     app_setpoint_t      setpoint;
+    app_homing_t        homing;
     app_path_t          path;          /**< of cyclic position, as the next */
     uint16_t            target_number; /**< of its last set-point */
     bool                velocity;      /**< a velocity offset was given since it began */
@@ -80,6 +83,9 @@ typedef struct {
     float                 speed_e_radps;
     bool                  arrived; /**< at the commanded position */
     const app_position_t *position;
+    const app_angle_t    *angle;
+    uint16_t              inputs; /**< levels of board_inputs() */
+    uint32_t              ticks;
 } app_control_seen_t;
 
 /** @return CTL_BAD_CONFIG when there is no largest current. Context: init. */

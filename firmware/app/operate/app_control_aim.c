@@ -2,7 +2,7 @@
 /* Runs without a ramp of the speed aim at a path, a torque, or a line of cyclic velocity. */
 #include "app_control_change.h"
 
-#define ANY_STEP 1.0e9f /* beyond every torque: no slope */
+#define ANY_STEP 1.0e9f /* beyond every torque and speed: no slope */
 
 /* Chosen: as the limits of a position profile by the shipped drive's design, half of the torque. */
 #define ACCEL_SHARE 0.6f
@@ -108,12 +108,35 @@ static void aim_cyclic_speed(app_control_t *c, const app_objects_t *o,
     }
 }
 
+static void aim_homing(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    const app_homing_seen_t sees = {.position = seen->position,
+                                    .angle    = seen->angle,
+                                    .active   = app_control_active(o, seen->inputs),
+                                    .ticks    = seen->ticks,
+                                    .ts_s     = c->ts_s};
+    const float             most = c->speed_max_e_radps;
+    const float             rate = o->homing_accel_e_radps2;
+    const float             step = (rate > 0.0f) ? (c->ts_s * rate) : ANY_STEP;
+
+    if (seen->mode != APP_MODE_RUN) {
+        app_control_put_speed(c, seen);
+    } else {
+        c->goal_e_radps = base_clamp(app_homing_tick(&c->homing, o, &sees), -most, most);
+        c->up_e_radps   = step;
+        c->down_e_radps = step;
+    }
+}
+
 void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
                             const app_control_seen_t *seen, app_command_t *out)
 {
     if (c->follows == APP_FOLLOWS_CYCLIC_SPEED) {
         out->follows = APP_FOLLOWS_SPEED;
         aim_cyclic_speed(c, o, seen);
+    } else if (c->follows == APP_FOLLOWS_HOMING) {
+        out->follows = APP_FOLLOWS_SPEED;
+        aim_homing(c, o, seen);
     } else if (c->follows == APP_FOLLOWS_PATH) {
         aim_path(c, o, seen, out);
         app_control_put_speed(c, seen);

@@ -7,6 +7,15 @@
 
 #define STAY APP_CONTROL_STATES
 
+/* Chosen: nothing moves until a method is set. A turn in a second meets a switch softly; a tenth of
+ * that passes its edge within a few counts of a millisecond. */
+#define HOMING_METHOD         37
+#define HOMING_SWITCH_m_radps BASE_TWO_PI
+#define HOMING_ZERO_m_radps   (0.1f * BASE_TWO_PI)
+#define HOMING_s              60.0f
+
+#define THERE_cnt 8L /* chosen: a shaft that holds a position moves less */
+
 #define INTERPOLATION_s 0.01f /* chosen: a master on a serial line can keep it */
 
 #define FOLLOWING_s 0.1f /* chosen: longer than a load step, shorter than a jam lasts */
@@ -36,21 +45,29 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->follows           = APP_FOLLOWS_SPEED;
     c->holds             = false;
     c->limited           = false;
+    c->at_switch         = false;
+    app_homing_reset(&c->homing);
     app_path_end(&c->path);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
 app_objects_t app_control_default(const drive_config_t *drive)
 {
-    const app_objects_t o = {.controlword       = APP_CONTROL_DISABLE_VOLTAGE,
-                             .mode_of_operation = APP_CONTROL_PROFILE_VELOCITY,
-                             .quick_option      = APP_CONTROL_QUICK_FAST,
-                             .lost_option       = APP_CONTROL_LOST_DISABLE,
-                             .window_e_radps    = WINDOW_E_RADPS,
-                             .current_max_A     = drive->current_max_A,
-                             .torque_most       = TORQUE_SHARE_MAX,
-                             .interpolation_s   = INTERPOLATION_s,
-                             .following_s       = FOLLOWING_s};
+    const float pairs = (float)drive->hardware.pole_pairs;
+
+    const app_objects_t o = {.controlword           = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation     = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option          = APP_CONTROL_QUICK_FAST,
+                             .lost_option           = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps        = WINDOW_E_RADPS,
+                             .current_max_A         = drive->current_max_A,
+                             .torque_most           = TORQUE_SHARE_MAX,
+                             .interpolation_s       = INTERPOLATION_s,
+                             .following_s           = FOLLOWING_s,
+                             .homing_method         = HOMING_METHOD,
+                             .homing_switch_e_radps = pairs * HOMING_SWITCH_m_radps,
+                             .homing_zero_e_radps   = pairs * HOMING_ZERO_m_radps,
+                             .homing_time_s         = HOMING_s};
     return o;
 }
 
@@ -60,10 +77,11 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
     const int16_t quick = o->quick_option;
 
     return (app_control_is_speed(mode) || (mode == APP_CONTROL_HOMING) ||
-            (mode == APP_CONTROL_COMMISSIONING) ||
+            (mode == APP_CONTROL_COMMISSIONING) || (mode == APP_CONTROL_FIND_ANGLE) ||
             (app_control_is_position(mode) && drive->positions) ||
             (app_control_is_torque(mode) && drive->torques)) &&
-           ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
+           ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY)) &&
+           app_homing_knows(o->homing_method);
 }
 
 static bool is_moving(const app_control_seen_t *seen)
@@ -101,6 +119,7 @@ static void start(app_control_t *c, const app_objects_t *o, const app_control_se
     c->done        = false;
     c->ref_e_radps = seen->speed_e_radps;
     c->holds       = false;
+    app_homing_reset(&c->homing);
 }
 
 /* Change with the bridge off. A start needs a rising bit 3; a refused start is not repeated
@@ -235,7 +254,7 @@ static bool follows_position(app_control_t *c, const app_objects_t *o,
         app_setpoint_start(&c->setpoint, o, seen->position);
         c->holds = true;
     }
-    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
+    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived || c->at_switch);
     return !halted;
 }
 
@@ -247,15 +266,64 @@ void app_control_hand_over(app_control_t *c, const app_objects_t *o)
         app_control_is_run(to)) {
         c->mode  = to;
         c->holds = false;
+        app_homing_reset(&c->homing);
     }
+}
+
+static float far_of(int32_t way_cnt)
+{
+    return app_angle_cnt_within(way_cnt, THERE_cnt) ? 0.0f : (float)way_cnt;
+}
+
+/* The sign says what the run wants to do, in the motor's sense. A shaft that holds a position wants
+ * nothing. */
+static float wanted_way(const app_control_t *c, const app_objects_t *o,
+                        const app_control_seen_t *seen)
+{
+    const int32_t now_cnt = app_position_cnt(seen->position, &seen->position->actual);
+    const int32_t sum_cnt = app_position_held(o->target_cnt) + app_position_held(o->offset_cnt);
+    float         way     = app_control_target_e_radps(o, c->mode);
+
+    if (app_control_is_torque(c->mode)) {
+        way = app_control_target_torque(o, c->mode);
+    } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
+        way = c->holds ? far_of(c->setpoint.now.target_cnt - now_cnt) : 0.0f;
+    } else if (c->mode == APP_CONTROL_CYCLIC_POSITION) {
+        way = far_of(app_position_held(sum_cnt) - now_cnt);
+    } else {
+        /* a speed */
+    }
+    return way;
+}
+
+/* True if an active limit switch is ahead. */
+static bool is_at_switch(const app_control_t *c, const app_objects_t *o,
+                         const app_control_seen_t *seen)
+{
+    const uint16_t active   = app_control_active(o, seen->inputs);
+    const uint16_t negative = active & (uint16_t)BOARD_INPUT_NEGATIVE;
+    const uint16_t positive = active & (uint16_t)BOARD_INPUT_POSITIVE;
+    const bool     forward  = (o->reversed ? negative : positive) != 0U;
+    const bool     back     = (o->reversed ? positive : negative) != 0U;
+    bool           stops    = false;
+
+    if ((forward || back) && (c->mode != APP_CONTROL_HOMING)) {
+        const float way = wanted_way(c, o, seen);
+
+        stops = (forward && !(way <= 0.0f)) || (back && !(way >= 0.0f));
+    }
+    return stops;
 }
 
 app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
                                    const app_control_seen_t *seen)
 {
-    const bool    halted  = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT);
-    app_follows_t follows = APP_FOLLOWS_SPEED;
+    const bool    at_switch = is_at_switch(c, o, seen);
+    const bool    halt      = app_control_has(o->controlword, APP_CONTROL_HALT);
+    const bool    halted    = c->stopping || halt || at_switch;
+    app_follows_t follows   = APP_FOLLOWS_SPEED;
 
+    c->at_switch = at_switch;
     if (app_control_is_torque(c->mode)) {
         follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_TORQUE : follows;
     } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
@@ -265,6 +333,8 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
     } else if (c->mode == APP_CONTROL_CYCLIC_VELOCITY) {
         follows =
             (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_CYCLIC_SPEED : follows;
+    } else if (c->mode == APP_CONTROL_HOMING) {
+        follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_HOMING : follows;
     } else {
         /* a speed */
     }

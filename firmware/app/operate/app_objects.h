@@ -37,11 +37,12 @@ enum {
 
 /** Modes of operation: 6060h. */
 enum {
+    APP_CONTROL_FIND_ANGLE       = -2, /**< aligns the rotor, app_align.h */
     APP_CONTROL_COMMISSIONING    = -1, /**< measures the motor, commission.h */
     APP_CONTROL_PROFILE_POSITION = 1,  /**< app_setpoint.h; only with a position law */
     APP_CONTROL_PROFILE_VELOCITY = 3,
     APP_CONTROL_PROFILE_TORQUE   = 4, /**< along a slope, as the next only with a torque law */
-    APP_CONTROL_HOMING           = 6, /**< finds the angle, app_align.h */
+    APP_CONTROL_HOMING           = 6, /**< finds the zero of positions, app_homing.h */
     APP_CONTROL_CYCLIC_POSITION  = 8, /**< from set-point to set-point, app_path.h; as 1 */
     APP_CONTROL_CYCLIC_VELOCITY  = 9, /**< from set-point to set-point, app_control_change.h */
     APP_CONTROL_CYCLIC_TORQUE    = 10 /**< the newest value at once, with its offset */
@@ -79,6 +80,15 @@ typedef struct {
     bool     limits;               /**< set-points of positions keep within the next two */
     int32_t  least_cnt;
     int32_t  most_cnt;
+    bool     reversed;        /**< positions count against the motor's sense */
+    uint16_t inputs_used;     /**< BOARD_INPUT_ bits, as the next */
+    uint16_t inputs_inverted; /**< active when low */
+    int16_t  homing_method;   /**< app_homing.h, as the next */
+    float    homing_switch_e_radps;
+    float    homing_zero_e_radps;
+    float    homing_accel_e_radps2; /**< 0: the drive's limit */
+    float    homing_time_s;         /**< that it may take */
+    int32_t  home_offset_cnt;       /**< from home to the zero */
 } app_objects_t;
 
 /** True for the modes of operation that command a torque. */
@@ -103,7 +113,13 @@ static inline bool app_control_is_position(int16_t mode)
 static inline bool app_control_is_run(int16_t mode)
 {
     return app_control_is_speed(mode) || app_control_is_position(mode) ||
-           app_control_is_torque(mode);
+           app_control_is_torque(mode) || (mode == APP_CONTROL_HOMING);
+}
+
+/** Inputs that are in use and active, of the levels of board_inputs(). */
+static inline uint16_t app_control_active(const app_objects_t *o, uint16_t levels)
+{
+    return (uint16_t)((levels ^ o->inputs_inverted) & o->inputs_used);
 }
 
 /** Target of a torque mode within its limit, of the rated torque. */

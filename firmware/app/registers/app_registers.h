@@ -78,6 +78,7 @@ typedef struct app_registers_request {
     app_units_t           units;
     app_units_scale_t     scale; /**< of these units */
     app_units_positions_t positions;
+    uint32_t              window_cnt; /**< counts of its window */
     app_scope_setup_t     scope;
     uint16_t              scope_command; /**< 1 arms, 2 stops */
     uint16_t              modbus_address;

@@ -14,7 +14,7 @@
 
 const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING] = {
     {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.controlword), false, 0U},
-    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 10.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.mode_of_operation), false, 0U},
+    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -2.0f, 10.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.mode_of_operation), false, 0U},
     {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), false, 64U},
     {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), true, 64U},
     {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), true, 64U},
@@ -73,6 +73,14 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_POLARITY, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, true, 0x4B45U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, units.polarity), false, 0U},
     {APP_REGISTERS_POSITION_LEAST, APP_REGISTERS_I32, 0.0f, -2.14748365e+09f, 2.14748365e+09f, false, 0x4E6AU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, positions.least), false, 0U},
     {APP_REGISTERS_POSITION_MOST, APP_REGISTERS_I32, 0.0f, -2.14748365e+09f, 2.14748365e+09f, false, 0x5849U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, positions.most), false, 0U},
+    {APP_REGISTERS_HOMING_METHOD, APP_REGISTERS_I16, 0.0f, 1.0f, 37.0f, false, 0xCD83U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.homing_method), false, 0U},
+    {APP_REGISTERS_HOMING_SPEED_SWITCH, APP_REGISTERS_U32, 10.0f, 0.0f, 10000000.0f, false, 0x909BU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.homing_switch_e_radps), true, 0U},
+    {APP_REGISTERS_HOMING_SPEED_ZERO, APP_REGISTERS_U32, 10.0f, 0.0f, 10000000.0f, false, 0x34A8U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.homing_zero_e_radps), true, 0U},
+    {APP_REGISTERS_HOMING_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, 0xCE97U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.homing_accel_e_radps2), false, 0U},
+    {APP_REGISTERS_HOME_OFFSET, APP_REGISTERS_I32, 0.0f, -2.14748365e+09f, 2.14748365e+09f, false, 0x79B7U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, positions.home_offset), false, 0U},
+    {APP_REGISTERS_HOMING_TIME, APP_REGISTERS_U16, 10.0f, 0.1f, 6000.0f, false, 0x2C2CU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.homing_time_s), false, 0U},
+    {APP_REGISTERS_INPUTS_USED, APP_REGISTERS_U16, 0.0f, 0.0f, 7.0f, false, 0x3350U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.inputs_used), false, 0U},
+    {APP_REGISTERS_INPUTS_INVERTED, APP_REGISTERS_U16, 0.0f, 0.0f, 7.0f, false, 0x7DD4U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.inputs_inverted), false, 0U},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
@@ -130,6 +138,9 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false, 0U},
     {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false, 0U},
     {APP_REGISTERS_DISC_MAP, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false, 0U},
+    {APP_REGISTERS_HOMING_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_homing_stage_t), AT(app_status_t, homing), false, 0U},
+    {APP_REGISTERS_HOMED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_BOOL, AT(app_status_t, position.homed), false, 0U},
+    {APP_REGISTERS_DIGITAL_INPUTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U16, AT(app_status_t, inputs), false, 0U},
     {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false, 0U},
     {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false, 0U},
     {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false, 0U},

@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "9c07479f" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "dc1cd3c9" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 34U /**< parameters */
+#define APP_REGISTERS_SAVED 42U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -97,7 +97,17 @@ enum {
     APP_REGISTERS_POSITION_LEAST = 326,
     APP_REGISTERS_POSITION_MOST = 328,
     APP_REGISTERS_UNITS_FIRST = 320,
-    APP_REGISTERS_UNITS_END = 330
+    APP_REGISTERS_UNITS_END = 330,
+    APP_REGISTERS_HOMING_METHOD = 352,
+    APP_REGISTERS_HOMING_SPEED_SWITCH = 353,
+    APP_REGISTERS_HOMING_SPEED_ZERO = 355,
+    APP_REGISTERS_HOMING_ACCELERATION = 357,
+    APP_REGISTERS_HOME_OFFSET = 359,
+    APP_REGISTERS_HOMING_TIME = 361,
+    APP_REGISTERS_INPUTS_USED = 362,
+    APP_REGISTERS_INPUTS_INVERTED = 363,
+    APP_REGISTERS_HOMING_FIRST = 352,
+    APP_REGISTERS_HOMING_END = 364
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -158,8 +168,11 @@ enum {
     APP_REGISTERS_POSITION_NOW = 64,
     APP_REGISTERS_POSITION_TARGET = 66,
     APP_REGISTERS_DISC_MAP = 68,
+    APP_REGISTERS_HOMING_STAGE = 69,
+    APP_REGISTERS_HOMED = 70,
+    APP_REGISTERS_DIGITAL_INPUTS = 71,
     APP_REGISTERS_POSITION_FIRST = 64,
-    APP_REGISTERS_POSITION_END = 69,
+    APP_REGISTERS_POSITION_END = 72,
     APP_REGISTERS_INERTIA_RATIO = 96,
     APP_REGISTERS_INERTIA_CHANGES = 97,
     APP_REGISTERS_RING_FREQUENCY = 98,
@@ -316,9 +329,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 60U
+#define APP_REGISTERS_MAP_HOLDING 68U
 
-#define APP_REGISTERS_MAP_INPUT 144U
+#define APP_REGISTERS_MAP_INPUT 147U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

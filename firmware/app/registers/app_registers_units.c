@@ -11,9 +11,10 @@ void app_registers_init_units(app_registers_t *r)
     const app_units_positions_t none  = {.window = WINDOW};
     const app_units_scale_t     count = {.num = 1U, .den = 1U};
 
-    r->requested.units     = app_units_default();
-    r->requested.scale     = count;
-    r->requested.positions = none;
+    r->requested.units      = app_units_default();
+    r->requested.scale      = count;
+    r->requested.positions  = none;
+    r->requested.window_cnt = WINDOW;
 }
 
 static bool is_other(const app_units_t *a, const app_units_t *b)
@@ -50,6 +51,7 @@ bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *
         reduces = reduces && app_units_reduce(&w->units, counts, &w->scale);
         turn_round(&w->objects, turned);
     }
+    w->window_cnt = app_units_window_cnt(&w->scale, w->positions.window);
     return reduces && app_units_fit(&w->scale, &w->positions);
 }
 

@@ -4,12 +4,13 @@
 
 #include <stddef.h>
 
-/* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: both velocities, homing, commissioning. */
+/* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: both velocities, homing, commissioning,
+ * alignment. */
 #define MODE_1       0x00000001UL
 #define MODE_8       0x00000080UL
 #define MODE_4       0x00000008UL
 #define MODE_10      0x00000200UL
-#define MODES_OF_ALL 0x00010124UL
+#define MODES_OF_ALL 0x00030124UL
 
 #define TORQUE_WINDOW 0.005f /* chosen: of the rated torque, as one reads a torque */
 
@@ -99,8 +100,7 @@ static bool is_at_target(const app_registers_t *r)
 {
     const app_position_t *p       = &r->status.position;
     const int32_t         off_cnt = app_position_cnt(p, &p->actual) - r->status.target_cnt;
-    const int32_t         most_cnt =
-        (int32_t)app_units_window_cnt(&r->requested.scale, r->requested.positions.window);
+    const int32_t         most_cnt = (int32_t)r->requested.window_cnt;
 
     return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
 }
@@ -119,10 +119,12 @@ static bool is_reached(const app_registers_t *r)
     const app_status_t *s    = &r->status;
     const int16_t       mode = s->mode_of_operation;
     const bool  halted       = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
-    const float target = halted ? 0.0f : app_control_target_e_radps(&r->requested.objects, mode);
-    const bool  runs   = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
-    const bool  near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
-    bool        there;
+    const bool  homes        = mode == (int16_t)APP_CONTROL_HOMING;
+    const float target =
+        (halted || homes) ? 0.0f : app_control_target_e_radps(&r->requested.objects, mode);
+    const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
+    const bool near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
+    bool       there;
 
     if (!app_control_is_run(mode)) {
         there = s->done;
@@ -130,6 +132,8 @@ static bool is_reached(const app_registers_t *r)
         there = runs && near;
     } else if (mode == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         there = runs && is_at_target(r);
+    } else if (mode == (int16_t)APP_CONTROL_HOMING) {
+        there = runs && near && !app_homing_moves(s->homing);
     } else if (mode == (int16_t)APP_CONTROL_CYCLIC_POSITION) {
         there = false;
     } else {
@@ -156,14 +160,29 @@ static bool is_of_mode(const app_registers_t *r)
 
     if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         says = s->acknowledged;
+    } else if (s->mode_of_operation == (int16_t)APP_CONTROL_HOMING) {
+        says = s->homing == APP_HOMING_ATTAINED;
     } else if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) {
         says = base_within(s->speed_e_radps, r->config->stop.still_e_radps);
     } else if (app_control_is_run(s->mode_of_operation)) {
         says = is_following(r);
     } else {
-        /* homing and commissioning: whether the angle is known */
+        /* alignment and commissioning: whether the angle is known */
     }
     return says;
+}
+
+static bool is_at_switch(const app_status_t *s)
+{
+    return (s->inputs & ((uint32_t)BOARD_INPUT_NEGATIVE | (uint32_t)BOARD_INPUT_POSITIVE)) != 0U;
+}
+
+/* Bit 13: of positions, and of homing. */
+static bool is_off(const app_status_t *s)
+{
+    const bool homes = s->mode_of_operation == (int16_t)APP_CONTROL_HOMING;
+
+    return s->waits || s->beyond || (homes && (s->homing == APP_HOMING_FAILED));
 }
 
 uint16_t app_registers_statusword(const app_registers_t *r)
@@ -171,7 +190,7 @@ uint16_t app_registers_statusword(const app_registers_t *r)
     const app_status_t *s = &r->status;
     const bool          warns =
         s->hot || s->dc_link_out || s->tripped || s->without_angle || (app_registers_lost(r) != 0U);
-    const bool limited = (limits(s) != 0U) || s->held;
+    const bool limited = (limits(s) != 0U) || s->held || is_at_switch(s);
 
     return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |
                       bit_if(warns, APP_REGISTERS_WARNING) |
@@ -180,7 +199,7 @@ uint16_t app_registers_statusword(const app_registers_t *r)
                       bit_if(is_reached(r), APP_REGISTERS_REACHED) |
                       bit_if(limited, APP_REGISTERS_LIMITED) |
                       bit_if(is_of_mode(r), APP_REGISTERS_OF_MODE) |
-                      bit_if(s->waits || s->beyond, APP_REGISTERS_FOLLOWING_ERROR) |
+                      bit_if(is_off(s), APP_REGISTERS_FOLLOWING_ERROR) |
                       bit_if(s->gate_enable, APP_REGISTERS_BRIDGE_ON) |
                       ((s->reference != APP_ANGLE_NONE) ? APP_REGISTERS_REFERENCED : 0U));
 }

@@ -79,7 +79,7 @@ bool app_units_fit(const app_units_scale_t *s, const app_units_positions_t *p)
 {
     return is_near(s, p->target) && is_near(s, p->offset) && is_near(s, p->least) &&
            is_near(s, p->most) && is_near(s, (int32_t)p->window) &&
-           is_near(s, (int32_t)p->following_window);
+           is_near(s, (int32_t)p->following_window) && is_near(s, p->home_offset);
 }
 
 uint32_t app_units_window_cnt(const app_units_scale_t *s, uint32_t units)
@@ -97,6 +97,8 @@ void app_units_apply(const app_units_scale_t *s, const app_units_positions_t *p,
     o->target_cnt           = app_units_cnt(s, p->target);
     o->offset_cnt           = app_units_cnt(s, p->offset);
     o->following_window_cnt = app_units_window_cnt(s, p->following_window);
+    o->home_offset_cnt      = app_units_cnt(s, p->home_offset);
+    o->reversed             = s->reversed;
     o->limits               = p->least < p->most;
     o->least_cnt            = s->reversed ? most_cnt : least_cnt;
     o->most_cnt             = s->reversed ? least_cnt : most_cnt;

@@ -48,6 +48,7 @@ typedef struct {
     int32_t  most;
     uint16_t window;           /**< of "target reached" */
     uint32_t following_window; /**< 0: any */
+    int32_t  home_offset;
 } app_units_positions_t;
 
 /** Units that are counts. */

@@ -43,6 +43,7 @@ bool board_init(const board_setup_t *setup)
     in_force = setup;
     pwm_init(setup);
     gpio_connect();
+    inputs_init();
     cycles_init();
     encoder_init(setup);
     adc_init(setup);

@@ -31,6 +31,7 @@ extern const board_copy_t board_copies[BOARD_COPIES]; /**< code and tables; code
 
 void gpio_make_safe(void);     /**< gate driver off and bridge pins low; call it first */
 void gpio_connect(void);       /**< pins to their peripherals; the bridge must be tripped */
+void inputs_init(void);        /**< pins of limit and home switches */
 void gpio_use_direction(void); /**< the line's direction pin becomes an output, low */
 
 bool clock_init(void);        /**< false: no crystal or no lock */

@@ -253,3 +253,8 @@ uint16_t board_can_state(void)
 {
     return 0U;
 }
+
+uint16_t board_inputs(void)
+{
+    return 0U;
+}

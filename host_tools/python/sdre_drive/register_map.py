@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "9c07479f"
+DIGEST = "dc1cd3c9"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -121,6 +121,17 @@ UNITS: Tuple[Register, ...] = (  # holding
     Register("POSITION_MOST", 328, "i32", 0.0, "position units"),
 )
 
+HOMING: Tuple[Register, ...] = (  # holding
+    Register("HOMING_METHOD", 352, "i16", 0.0, ""),
+    Register("HOMING_SPEED_SWITCH", 353, "u32", 0.1, "r/min"),
+    Register("HOMING_SPEED_ZERO", 355, "u32", 0.1, "r/min"),
+    Register("HOMING_ACCELERATION", 357, "u32", 1.0, "rad/s2 electrical"),
+    Register("HOME_OFFSET", 359, "i32", 0.0, "position units"),
+    Register("HOMING_TIME", 361, "u16", 0.1, "s"),
+    Register("INPUTS_USED", 362, "u16", 0.0, "bits"),
+    Register("INPUTS_INVERTED", 363, "u16", 0.0, "bits"),
+)
+
 LIVE: Tuple[Register, ...] = (  # input
     Register("STATUSWORD", 0, "u16", 0.0, "bits"),
     Register("MODE_NOW", 1, "i16", 0.0, ""),
@@ -179,6 +190,9 @@ POSITION: Tuple[Register, ...] = (  # input
     Register("POSITION_NOW", 64, "i32", 0.0, "position units"),
     Register("POSITION_TARGET", 66, "i32", 0.0, "position units"),
     Register("DISC_MAP", 68, "u16", 0.0, ""),
+    Register("HOMING_STAGE", 69, "u16", 0.0, ""),
+    Register("HOMED", 70, "u16", 0.0, ""),
+    Register("DIGITAL_INPUTS", 71, "u16", 0.0, "bits"),
 )
 
 SHAFT: Tuple[Register, ...] = (  # input
@@ -295,11 +309,11 @@ TORQUE_NOW: Tuple[Register, ...] = (  # input
     Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS, *HOMING)
 INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS, HOMING,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -338,6 +352,14 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["POLARITY"], 0, 255, 0.0, True, "607Eh", "128 position, 64 speed, 32 torque: other sense. 224 turns the whole drive round. Other bits are refused."),
     Parameter(BY_NAME["POSITION_LEAST"], -2147483647, 2147483647, 0.0, False, "607Dh", "limit of target positions. Both limits act when POSITION_LEAST is below POSITION_MOST. A target beyond them becomes the limit, and bit 11 of the status word is set."),
     Parameter(BY_NAME["POSITION_MOST"], -2147483647, 2147483647, 0.0, False, "607Dh", "the same in the other direction"),
+    Parameter(BY_NAME["HOMING_METHOD"], 1, 37, 37.0, False, "6098h", "1 to 14, 17 to 30, 33, 34, 35, 37. [Homing](#homing) describes them."),
+    Parameter(BY_NAME["HOMING_SPEED_SWITCH"], 0, 10000000.0, 60.0, False, "6099h", "of the motor, towards a switch"),
+    Parameter(BY_NAME["HOMING_SPEED_ZERO"], 0, 10000000.0, 6.0, False, "6099h", "of the motor, over its edge or the mark"),
+    Parameter(BY_NAME["HOMING_ACCELERATION"], 0, 1000000.0, 0.0, False, "609Ah", "of all its speeds; 0: the drive's limit"),
+    Parameter(BY_NAME["HOME_OFFSET"], -2147483647, 2147483647, 0.0, False, "607Ch", "from home to the zero of positions. So home has the position -HOME_OFFSET. It acts with the next homing."),
+    Parameter(BY_NAME["HOMING_TIME"], 0.1, 6000, 60.0, False, "", "after it homing has failed"),
+    Parameter(BY_NAME["INPUTS_USED"], 0, 7, 0.0, False, "", "1 negative, 2 positive limit switch, 4 home switch. An input that is not used is never active."),
+    Parameter(BY_NAME["INPUTS_INVERTED"], 0, 7, 0.0, False, "", "0: high or open is active, 1: low. With 0 a contact that opens is active, and so is a broken wire."),
 )
 
 # Signals of the scope by number: name and unit.

@@ -16,6 +16,7 @@ MODES_OF_OPERATION = {
     1: "profile position",
     3: "profile velocity",
     6: "homing",
+    -2: "alignment",
 }
 STOPS = {
     0: "disable voltage",

@@ -63,6 +63,7 @@ void                  f28335_board_can_listen(const uint16_t *ids, uint16_t coun
 bool                  f28335_board_can_read(board_can_frame_t *frame);
 bool                  f28335_board_can_write(const board_can_frame_t *frame);
 uint16_t              f28335_board_can_state(void);
+uint16_t              f28335_board_inputs(void);
 
 // The fake has no store and never restarts.
 
@@ -238,5 +239,10 @@ bool board_can_write(const board_can_frame_t *frame)
 uint16_t board_can_state()
 {
     return the_fake != nullptr ? std::uint16_t{0} : f28335_board_can_state();
+}
+
+uint16_t board_inputs()
+{
+    return the_fake != nullptr ? std::uint16_t{0} : f28335_board_inputs();
 }
 }

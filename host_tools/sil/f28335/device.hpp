@@ -114,6 +114,11 @@ public:
 
     // External faults.
     void set_fault_pin(bool low);
+    /// Level that the board drives onto a plain input.
+    void set_input(int pin, bool high)
+    {
+        gpio_.drive(pin, high);
+    }
     void lose_crystal();
     /// No conversion is started from now on.
     void lose_trigger()

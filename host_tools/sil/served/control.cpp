@@ -19,6 +19,7 @@ using nlohmann::json;
 
 constexpr double rpm = 60.0 / (2.0 * 3.14159265358979323846);
 constexpr Range  dc_link_range_V{1.0, 1e4};
+constexpr Range  switch_range{-1e5, 1e5}; // turns
 // Measured with the shipped drive: with less, a third of a current or none is within the noise of the model.
 constexpr double telling_share = 0.1; // of the current limit
 // Chosen: slower, a turn takes more than a second.
@@ -112,6 +113,31 @@ void set_can_fault(const std::string &name, ServedDrive &drive)
         fmt::format("can \"{}\" is not allowed: must be open, shorted, dominant or none", name));
 }
 
+/// "switch negative -3", "switch positive 5.5", "switch home 1 1.2", "switch none": turns from the mark.
+void set_switch(const std::string &text, ServedDrive &drive)
+{
+    const std::size_t space = text.find(' ');
+    const std::string which = text.substr(0, space);
+    const std::string rest  = space == std::string::npos ? "" : text.substr(space + 1);
+    if (which == "none") {
+        drive.switches() = {};
+    } else if (which == "negative") {
+        drive.switches().negative = number(rest, switch_range, "switch negative");
+    } else if (which == "positive") {
+        drive.switches().positive = number(rest, switch_range, "switch positive");
+    } else if (which == "home") {
+        const std::size_t gap  = rest.find(' ');
+        const double      from = number(rest.substr(0, gap), switch_range, "switch home");
+        const double      to   = number(gap == std::string::npos ? "" : rest.substr(gap + 1),
+                                 {from, switch_range.hi}, "switch home's end");
+        drive.switches().home = {from, to};
+    } else {
+        throw InputError(fmt::format("switch \"{}\" is not known: negative TURNS, positive TURNS, "
+                                     "home FROM TO, or none",
+                                     which));
+    }
+}
+
 json state(const ServedDrive &drive, const ServerReport &server)
 {
     const PlantState  &now    = drive.plant_state();
@@ -121,6 +147,7 @@ json state(const ServedDrive &drive, const ServerReport &server)
                                  {"speed_e_radps", now.omega_e_radps},
                                  {"speed_rpm", rpm_of(drive, now.omega_e_radps)},
                                  {"pole_pairs", drive.drive().motor.pole_pairs},
+                                 {"turns", drive.turns()},
                                  {"id_A", now.current_A.d},
                                  {"iq_A", now.current_A.q},
                                  {"torque_Nm", now.torque_Nm},
@@ -224,6 +251,8 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         return break_part(rest, drive, server);
     } else if (word == "can") {
         set_can_fault(rest, drive);
+    } else if (word == "switch") {
+        set_switch(rest, drive);
     } else if (word == "mend") {
         drive.mend();
     } else if (word == "power_cycle") {
@@ -232,8 +261,8 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         return trace(record, number(rest, {0.0, longest_record_s}, "trace"));
     } else if (word != "state") {
         throw InputError(
-            fmt::format("\"{}\" is not a command: load, dc_link, fault, can, mend, power_cycle, "
-                        "state, trace",
+            fmt::format("\"{}\" is not a command: load, dc_link, fault, can, switch, mend, "
+                        "power_cycle, state, trace",
                         word));
     }
     return state(drive, server);

@@ -23,6 +23,11 @@ constexpr double longest_boot_s = 0.5;
 // Chosen: between two ticks, clear of the conversion that follows each.
 constexpr double rest_share = 0.25;
 constexpr double no_end_s   = 1e9;
+constexpr double pi         = 3.14159265358979323846;
+
+constexpr int pin_home     = 26; // docs/hardware.md
+constexpr int pin_negative = 32;
+constexpr int pin_positive = 33;
 
 /// The firmware's constants, before anything of the board is made.
 Controller bound(const Scenario &s)
@@ -173,7 +178,23 @@ void ServedDrive::period()
     const DynamometerTorque torque = dynamometer_.at(plant_state().omega_e_radps);
     bench_.board()->set_extra_load_Nm(torque.active_Nm);
     bench_.board()->set_extra_brake_Nm(torque.brake_Nm);
+    set_inputs();
     device_->run_for(period_s());
+}
+
+double ServedDrive::turns() const
+{
+    return plant_state().theta_e_rad / (2.0 * pi * scenario_.drive.motor.pole_pairs);
+}
+
+/// Contacts that open when they are active; an input without a switch is open.
+void ServedDrive::set_inputs()
+{
+    const double at   = turns();
+    const auto  &home = switches_.home;
+    device_->set_input(pin_home, !home || (at >= home->first && at <= home->second));
+    device_->set_input(pin_negative, !switches_.negative || at <= *switches_.negative);
+    device_->set_input(pin_positive, !switches_.positive || at >= *switches_.positive);
 }
 
 void ServedDrive::set_dc_link_V(double voltage_V)

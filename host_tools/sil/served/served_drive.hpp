@@ -13,6 +13,7 @@
 #include "sil/f28335/flash_unit.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/motor_bench.hpp"
+#include "sil/served/axis_switches.hpp"
 #include "sil/served/dynamometer.hpp"
 
 namespace sdre {
@@ -95,7 +96,13 @@ public:
     {
         return dynamometer_;
     }
-    void set_dc_link_V(double voltage_V);
+    void          set_dc_link_V(double voltage_V);
+    AxisSwitches &switches()
+    {
+        return switches_;
+    }
+    /// Turns of the shaft from the index mark.
+    double turns() const;
     /// Voltage of the supply; the dc link's own is in plant_state().
     double source_V() const
     {
@@ -139,6 +146,7 @@ public:
 
 private:
     void power_up(bool after_reset);
+    void set_inputs();
 
     Scenario                        scenario_;
     Controller                      controller_;
@@ -148,6 +156,7 @@ private:
     f28335::CanBus                  can_bus_;
     std::unique_ptr<f28335::Device> device_;
     Dynamometer                     dynamometer_;
+    AxisSwitches                    switches_;
     double                          source_V_;
     std::vector<InjectedFault>      broken_;
     int                             resets_         = 0;

@@ -662,7 +662,7 @@ static uint16_t conditions(void)
 static void test_nothing_starts_with_a_fallback_until_it_is_accepted(void)
 {
     static const int16_t modes[] = {APP_CONTROL_PROFILE_VELOCITY, APP_CONTROL_HOMING,
-                                    APP_CONTROL_COMMISSIONING};
+                                    APP_CONTROL_COMMISSIONING, APP_CONTROL_FIND_ANGLE};
 
     for (size_t i = 0U; i < (sizeof modes / sizeof modes[0]); i++) {
         lose(2);

@@ -376,7 +376,7 @@ static void test_ramps(void)
 
 static void test_modes_of_operation_and_the_limit(void)
 {
-    wanted.mode_of_operation = APP_CONTROL_HOMING;
+    wanted.mode_of_operation = APP_CONTROL_FIND_ANGLE;
     wanted.current_max_A     = 0.75f * gain_tables_drive.current_max_A;
     go(APP_CONTROL_OPERATION_ENABLED);
     TEST_ASSERT_TRUE(out.align && !out.run && !out.commission && !control.done);
@@ -404,7 +404,7 @@ static void test_modes_of_operation_and_the_limit(void)
 
 static void test_unknown_objects_are_refused(void)
 {
-    static const int modes[] = {-2, 0, 2, 5, 7, 11};
+    static const int modes[] = {-3, 0, 2, 5, 7, 11};
     static const int quick[] = {3, 4};
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &gain_tables_drive));
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
@@ -448,16 +448,21 @@ static void test_a_state_that_cannot_be_is_left(void)
 }
 
 static app_position_t position;
+static app_angle_t    angle;
 
 /* Enabled in profile position, on a shaft that is `counts` from its zero and turns at this speed. */
 static void hold_position(int32_t counts, float speed_e_radps)
 {
-    const app_angle_t angle = {.pole_pairs = 2U, .positions = 10000U, .rad_per_cnt = 1.2566371e-3f};
+    const app_angle_t encoder = {
+        .pole_pairs = 2U, .positions = 10000U, .rad_per_cnt = 1.2566371e-3f};
+
+    angle = encoder;
     app_position_init(&position, &angle);
     position.known           = true;
     position.actual          = app_position_at(&position, counts);
     wanted.mode_of_operation = APP_CONTROL_PROFILE_POSITION;
     seen.position            = &position;
+    seen.angle               = &angle;
     seen.speed_e_radps       = speed_e_radps;
     go(APP_CONTROL_OPERATION_ENABLED);
     ticks(APP_CONTROL_ENABLE_OPERATION, 2);
@@ -614,7 +619,7 @@ static void test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, gain_tables_drive.speed_max_e_radps, out.omega_e_radps);
 }
 
-/* Each of the six, from each, without a tick in which the bridge would open. */
+/* Each of the seven, from each, without a tick in which the bridge would open. */
 static void test_runs_change_into_each_other_while_enabled(void)
 {
     static const struct {
@@ -625,7 +630,8 @@ static void test_runs_change_into_each_other_while_enabled(void)
                 {APP_CONTROL_CYCLIC_POSITION, APP_FOLLOWS_PATH},
                 {APP_CONTROL_CYCLIC_VELOCITY, APP_FOLLOWS_SPEED},
                 {APP_CONTROL_PROFILE_TORQUE, APP_FOLLOWS_TORQUE},
-                {APP_CONTROL_CYCLIC_TORQUE, APP_FOLLOWS_TORQUE}};
+                {APP_CONTROL_CYCLIC_TORQUE, APP_FOLLOWS_TORQUE},
+                {APP_CONTROL_HOMING, APP_FOLLOWS_SPEED}};
 
     for (int from = 0; from < SUPPORT_COUNT(runs); from++) {
         for (int to = 0; to < SUPPORT_COUNT(runs); to++) {
@@ -643,8 +649,9 @@ static void test_runs_change_into_each_other_while_enabled(void)
                 TEST_ASSERT_EQUAL_INT(runs[to].follows, out.follows);
                 TEST_ASSERT_EQUAL_INT(runs[to].mode, control.mode);
             }
-            TEST_ASSERT_FLOAT_WITHIN(0.0f, (runs[to].follows == APP_FOLLOWS_SPEED) ? 200.0f : 0.0f,
-                                     out.omega_e_radps);
+            const bool goes =
+                (runs[to].follows == APP_FOLLOWS_SPEED) && (runs[to].mode != APP_CONTROL_HOMING);
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, goes ? 200.0f : 0.0f, out.omega_e_radps);
         }
     }
 }
@@ -782,7 +789,7 @@ static void test_halt_of_a_cyclic_velocity_has_the_ramp_and_ends_on_a_line(void)
 
 static void test_a_mode_that_is_no_run_waits_for_the_next_start(void)
 {
-    static const int16_t modes[] = {APP_CONTROL_HOMING, APP_CONTROL_COMMISSIONING};
+    static const int16_t modes[] = {APP_CONTROL_FIND_ANGLE, APP_CONTROL_COMMISSIONING};
 
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
         setUp();
@@ -802,6 +809,126 @@ static void test_a_mode_that_is_no_run_waits_for_the_next_start(void)
     }
 }
 
+/* Homing holds zero speed, moves along its own ramp, and waits while it is halted. */
+static void test_homing_is_a_run_of_its_own(void)
+{
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation     = APP_CONTROL_HOMING;
+    wanted.homing_method         = 34;
+    wanted.homing_zero_e_radps   = 10.0f;
+    wanted.homing_accel_e_radps2 = 1000.0f;
+    wanted.accel_e_radps2        = 7.0f; /* of other modes */
+    ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+    TEST_ASSERT_TRUE(out.run && !out.align);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    tick(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT);
+    TEST_ASSERT_EQUAL_INT(APP_HOMING_INDEX, control.homing.stage);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 1000.0f * gain_tables_drive.ts_s, out.omega_e_radps);
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 200);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 10.0f, out.omega_e_radps);
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT | APP_CONTROL_HALT, 2000);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    TEST_ASSERT_EQUAL_INT(APP_HOMING_INDEX, control.homing.stage);
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 200);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 10.0f, out.omega_e_radps);
+    wanted.mode_of_operation =
+        APP_CONTROL_PROFILE_VELOCITY; /* and back: it has to be asked again */
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 2);
+    wanted.mode_of_operation = APP_CONTROL_HOMING;
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 2);
+    TEST_ASSERT_EQUAL_INT(APP_HOMING_IDLE, control.homing.stage);
+}
+
+/* Motor's sense of what a run is asked for, by mode of operation. */
+static void ask_for(int16_t mode, int way)
+{
+    wanted.mode_of_operation = mode;
+    wanted.omega_e_radps     = 100.0f * (float)way;
+    wanted.torque_share      = 0.2f * (float)way;
+    wanted.target_cnt        = 777 + (5000 * way);
+    wanted.target_number     = (uint16_t)(wanted.target_number + 1U);
+}
+
+static void test_an_active_limit_switch_stops_the_motion_towards_it(void)
+{
+    static const int16_t modes[]   = {APP_CONTROL_PROFILE_VELOCITY, APP_CONTROL_CYCLIC_VELOCITY,
+                                      APP_CONTROL_PROFILE_POSITION, APP_CONTROL_CYCLIC_POSITION,
+                                      APP_CONTROL_PROFILE_TORQUE,   APP_CONTROL_CYCLIC_TORQUE};
+    static const int     inputs[2] = {BOARD_INPUT_NEGATIVE, BOARD_INPUT_POSITIVE};
+
+    for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
+        for (int n = 0; n < 16; n++) {
+            const int  way      = ((n & 1) != 0) ? 1 : -1;
+            const bool reversed = (n & 2) != 0;
+            const int  input    = inputs[((n & 4) != 0) ? 1 : 0];
+            const bool used     = (n & 8) != 0;
+            const int  user     = reversed ? -way : way;
+            const bool ahead    = used && (input == inputs[(user > 0) ? 1 : 0]);
+
+            setUp();
+            hold_position(777, 0.0f);
+            wanted.reversed        = reversed;
+            wanted.torque_most     = 1.0f;
+            wanted.interpolation_s = 1.0e-4f;
+            ask_for(modes[i], way);
+            ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+            wanted.target_number++;
+            ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT | APP_CONTROL_AT_ONCE, 2);
+            const app_follows_t follows = out.follows;
+            wanted.inputs_used          = used ? 3U : 0U;
+            seen.inputs                 = (uint16_t)input;
+            ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 3);
+            TEST_ASSERT_EQUAL_INT(ahead, control.at_switch);
+            TEST_ASSERT_EQUAL_INT(ahead ? APP_FOLLOWS_SPEED : follows, out.follows);
+            if (ahead || app_control_is_speed(modes[i])) {
+                TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, ahead ? 0.0f : (100.0f * (float)way),
+                                         out.omega_e_radps);
+            }
+            TEST_ASSERT_TRUE(out.run);
+            TEST_ASSERT_EQUAL_INT(APP_CONTROL_OPERATION_ENABLED, control.state);
+        }
+    }
+}
+
+/* A set-point beyond the switch is given up, and the next one leads away. */
+static void test_a_set_point_leads_away_from_a_limit_switch(void)
+{
+    hold_position(777, 0.0f);
+    wanted.target_cnt = 5777;
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT | APP_CONTROL_AT_ONCE, 2);
+    wanted.inputs_used = 3U;
+    seen.inputs        = BOARD_INPUT_POSITIVE;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+    wanted.target_cnt = 500;
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 3);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_POSITION, out.follows);
+    TEST_ASSERT_EQUAL_INT32(500, wanted_cnt());
+    position.actual = app_position_at(&position, 500 - 3); /* it holds the shaft there */
+    ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_POSITION, out.follows);
+}
+
+static void test_a_limit_switch_stops_with_the_quick_deceleration(void)
+{
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation = APP_CONTROL_PROFILE_VELOCITY;
+    wanted.omega_e_radps     = 100.0f;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+    wanted.inputs_used     = 3U;
+    wanted.inputs_inverted = 2U; /* low is active */
+    wanted.decel_e_radps2  = 1.0f;
+    wanted.quick_e_radps2  = 5000.0f;
+    seen.inputs            = 2U;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 5);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 100.0f, out.omega_e_radps);
+    seen.inputs = 0U;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 5);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f - (5.0f * 5000.0f * gain_tables_drive.ts_s),
+                             out.omega_e_radps);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -814,6 +941,10 @@ int main(void)
     RUN_TEST(test_halt_and_stop_of_a_torque_run_begin_at_the_present_speed);
     RUN_TEST(test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it);
     RUN_TEST(test_runs_change_into_each_other_while_enabled);
+    RUN_TEST(test_homing_is_a_run_of_its_own);
+    RUN_TEST(test_an_active_limit_switch_stops_the_motion_towards_it);
+    RUN_TEST(test_a_limit_switch_stops_with_the_quick_deceleration);
+    RUN_TEST(test_a_set_point_leads_away_from_a_limit_switch);
     RUN_TEST(test_cyclic_position_takes_what_is_written_while_it_runs);
     RUN_TEST(test_set_points_of_a_path_keep_within_the_limits);
     RUN_TEST(test_an_operator_may_lower_the_jerk_of_a_path);

@@ -27,6 +27,13 @@ static void register_types(void)
     IS(app_registers_request_t, objects.decel_e_radps2, float);
     IS(app_registers_request_t, objects.disable_option, int16_t);
     IS(app_registers_request_t, objects.following_s, float);
+    IS(app_registers_request_t, objects.homing_accel_e_radps2, float);
+    IS(app_registers_request_t, objects.homing_method, int16_t);
+    IS(app_registers_request_t, objects.homing_switch_e_radps, float);
+    IS(app_registers_request_t, objects.homing_time_s, float);
+    IS(app_registers_request_t, objects.homing_zero_e_radps, float);
+    IS(app_registers_request_t, objects.inputs_inverted, uint16_t);
+    IS(app_registers_request_t, objects.inputs_used, uint16_t);
     IS(app_registers_request_t, objects.interpolation_s, float);
     IS(app_registers_request_t, objects.jerk_e_radps3, float);
     IS(app_registers_request_t, objects.lost_option, int16_t);
@@ -44,6 +51,7 @@ static void register_types(void)
     IS(app_registers_request_t, objects.torque_speed_max_e_radps, float);
     IS(app_registers_request_t, objects.window_e_radps, float);
     IS(app_registers_request_t, positions.following_window, uint32_t);
+    IS(app_registers_request_t, positions.home_offset, int32_t);
     IS(app_registers_request_t, positions.least, int32_t);
     IS(app_registers_request_t, positions.most, int32_t);
     IS(app_registers_request_t, positions.offset, int32_t);
@@ -102,6 +110,7 @@ static void register_types(void)
     IS(app_status_t, derating, float);
     IS(app_status_t, drive_fault, drive_fault_t);
     IS(app_status_t, fault, app_fault_t);
+    IS(app_status_t, homing, app_homing_stage_t);
     IS(app_status_t, i_A.d, float);
     IS(app_status_t, i_A.q, float);
     IS(app_status_t, i_ref_A.d, float);
@@ -109,11 +118,13 @@ static void register_types(void)
     IS(app_status_t, ignored_angles, uint16_t);
     IS(app_status_t, ignored_currents, uint16_t);
     IS(app_status_t, index_corrections, uint16_t);
+    IS(app_status_t, inputs, uint16_t);
     IS(app_status_t, inverter_heat, float);
     IS(app_status_t, mode, app_mode_t);
     IS(app_status_t, mode_of_operation, int16_t);
     IS(app_status_t, motor_heat, float);
     IS(app_status_t, phase_errors, uint16_t);
+    IS(app_status_t, position.homed, bool);
     IS(app_status_t, position_cnt, uint16_t);
     IS(app_status_t, position_jumps, uint16_t);
     IS(app_status_t, reference, app_angle_reference_t);
@@ -157,6 +168,7 @@ static void register_types(void)
     FITS(app_align_stage_t);
     FITS(app_angle_reference_t);
     FITS(app_fault_t);
+    FITS(app_homing_stage_t);
     FITS(app_mode_t);
     FITS(board_reset_t);
     FITS(commission_coupling_t);

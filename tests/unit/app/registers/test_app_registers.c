@@ -359,7 +359,7 @@ static void test_target_reached_and_what_bit_12_says(void)
     TEST_ASSERT_EQUAL_HEX16(0x1000, input(APP_REGISTERS_STATUSWORD) & 0x1400);
     registers.requested.objects.controlword = 0x010FU; /* halt */
     TEST_ASSERT_EQUAL_HEX16(0x1400, input(APP_REGISTERS_STATUSWORD) & 0x1400);
-    s->mode_of_operation = APP_CONTROL_HOMING;
+    s->mode_of_operation = APP_CONTROL_FIND_ANGLE;
     TEST_ASSERT_EQUAL_HEX16(0x0000, input(APP_REGISTERS_STATUSWORD) & 0x1400);
     s->done = true;
     TEST_ASSERT_EQUAL_HEX16(0x0400, input(APP_REGISTERS_STATUSWORD) & 0x1400);

@@ -105,7 +105,11 @@ static void test_the_polarity_reverses_what_its_bits_name(void)
         setUp();
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_SPEED, 1000));
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_TORQUE, 300));
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_VELOCITY_OFFSET, 70));
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_TORQUE_OFFSET, 30));
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_POLARITY, bits << 5));
+        TEST_ASSERT_EQUAL_INT32(70, holding_32(APP_REGISTERS_VELOCITY_OFFSET));
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.03f * torque, command().torque_offset);
         TEST_ASSERT_EQUAL_INT32(1000, holding_32(APP_REGISTERS_SPEED));
         TEST_ASSERT_EQUAL_UINT16(300U, register_words_holding(&registers, APP_REGISTERS_TORQUE));
         TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f * speed, command().omega_e_radps);

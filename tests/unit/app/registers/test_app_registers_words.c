@@ -54,13 +54,13 @@ static uint32_t input_32(int address)
 
 static void test_a_position_is_reached_at_rest_within_the_window(void)
 {
-    app_status_t *s                      = &registers.status;
-    const int32_t here_cnt               = app_registers_position(&registers);
-    registers.requested.positions.window = 3U;
-    s->state                             = APP_CONTROL_OPERATION_ENABLED;
-    s->mode                              = APP_MODE_RUN;
-    s->mode_of_operation                 = APP_CONTROL_PROFILE_POSITION;
-    s->arrived                           = true;
+    app_status_t *s        = &registers.status;
+    const int32_t here_cnt = app_registers_position(&registers);
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_POSITION_WINDOW, 3));
+    s->state             = APP_CONTROL_OPERATION_ENABLED;
+    s->mode              = APP_MODE_RUN;
+    s->mode_of_operation = APP_CONTROL_PROFILE_POSITION;
+    s->arrived           = true;
     for (int32_t off = -5; off <= 5; off++) {
         s->target_cnt = here_cnt - off;
         TEST_ASSERT_EQUAL_HEX16(((off >= -3) && (off <= 3)) ? REACHED : 0, statusword(REACHED));
@@ -96,16 +96,16 @@ static void test_bit_12_of_a_position_run_is_the_acknowledgement(void)
     TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(OF_MODE));
 }
 
-/* Bit n - 1 is mode n of CiA 402; bit 16 is the manufacturer's, commissioning. */
+/* Bit n - 1 is mode n of CiA 402; bits 16 and 17 are the manufacturer's. */
 static void test_modes_of_a_drive(void)
 {
     drive.positions = true;
     drive.torques   = true;
-    TEST_ASSERT_EQUAL_HEX32(0x000103ADUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x000303ADUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.torques = false;
-    TEST_ASSERT_EQUAL_HEX32(0x000101A5UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x000301A5UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.positions = false;
-    TEST_ASSERT_EQUAL_HEX32(0x00010124UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x00030124UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
 }
 
 static void test_a_torque_is_reached_by_its_references(void)
@@ -316,6 +316,51 @@ static void test_every_address_is_read_with_one_answer(void)
     TEST_ASSERT_GREATER_OR_EQUAL_INT(APP_REGISTERS_MAP_HOLDING, holdings);
 }
 
+/* The table of CiA 402 for bits 13, 12 and 10. */
+static void test_status_word_of_homing(void)
+{
+    static const struct {
+        app_homing_stage_t stage;
+        float              speed;
+        int                bits;
+    } rows[]        = {{APP_HOMING_IDLE, 0.0f, REACHED},
+                       {APP_HOMING_FIND, 20.0f, 0},
+                       {APP_HOMING_FIND, 0.0f, 0},
+                       {APP_HOMING_INDEX, 0.0f, 0},
+                       {APP_HOMING_ATTAINED, 20.0f, OF_MODE},
+                       {APP_HOMING_ATTAINED, 0.0f, OF_MODE | REACHED},
+                       {APP_HOMING_FAILED, -20.0f, APP_REGISTERS_FOLLOWING_ERROR},
+                       {APP_HOMING_FAILED, 0.0f, APP_REGISTERS_FOLLOWING_ERROR | REACHED}};
+    app_status_t *s = &registers.status;
+
+    s->state                                  = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                   = APP_MODE_RUN;
+    registers.requested.objects.omega_e_radps = 20.0f; /* of another mode */
+    for (int n = 0; n < SUPPORT_COUNT(rows); n++) {
+        s->mode_of_operation = APP_CONTROL_HOMING;
+        s->homing            = rows[n].stage;
+        s->speed_e_radps     = rows[n].speed;
+        TEST_ASSERT_EQUAL_HEX16(rows[n].bits,
+                                statusword(REACHED | OF_MODE | APP_REGISTERS_FOLLOWING_ERROR));
+        s->mode_of_operation = APP_CONTROL_PROFILE_POSITION;
+        TEST_ASSERT_EQUAL_HEX16(0, statusword(OF_MODE | APP_REGISTERS_FOLLOWING_ERROR));
+    }
+}
+
+static void test_a_limit_switch_and_a_limit_of_position_set_bit_11(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(APP_REGISTERS_LIMITED));
+    registers.status.inputs = BOARD_INPUT_HOME;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(APP_REGISTERS_LIMITED));
+    registers.status.inputs = BOARD_INPUT_NEGATIVE;
+    TEST_ASSERT_EQUAL_HEX16(APP_REGISTERS_LIMITED, statusword(APP_REGISTERS_LIMITED));
+    registers.status.inputs = BOARD_INPUT_POSITIVE;
+    TEST_ASSERT_EQUAL_HEX16(APP_REGISTERS_LIMITED, statusword(APP_REGISTERS_LIMITED));
+    registers.status.inputs = 0U;
+    registers.status.held   = true;
+    TEST_ASSERT_EQUAL_HEX16(APP_REGISTERS_LIMITED, statusword(APP_REGISTERS_LIMITED));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -323,6 +368,8 @@ int main(void)
     RUN_TEST(test_a_halted_position_run_is_reached_at_standstill);
     RUN_TEST(test_bit_12_of_a_position_run_is_the_acknowledgement);
     RUN_TEST(test_modes_of_a_drive);
+    RUN_TEST(test_status_word_of_homing);
+    RUN_TEST(test_a_limit_switch_and_a_limit_of_position_set_bit_11);
     RUN_TEST(test_a_torque_is_reached_by_its_references);
     RUN_TEST(test_a_cyclic_velocity_is_reached_with_its_offset);
     RUN_TEST(test_bits_of_a_cyclic_position);
