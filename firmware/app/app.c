@@ -339,6 +339,19 @@ static void drive_bridge(const bridge_t *out, bool was_on)
     }
 }
 
+#if BOARD_CHOPPER
+/* A resistor that stays off needs no command. */
+static void drive_chopper(const board_sample_t *raw)
+{
+    app_chopper_t *const c      = &tick_side.modes.chopper;
+    const bool           was_on = c->on;
+
+    if (app_chopper_tick(c, raw) || was_on) {
+        board_chopper_write(c->on);
+    }
+}
+#endif
+
 /* Ends a tick. The new count tells the background that values it read before are old. */
 static void finish(uint16_t board_faults, uint32_t start_cycles)
 {
@@ -391,12 +404,15 @@ void app_tick(void)
         return;
     }
     work();
-    in->raw               = board_sample();
-    in->board_faults      = board_fault_read();
-    in->background_lost   = background_lost();
-    in->memory_changed    = shared.memory_changed;
-    in->tick_missing      = shared.tick_missing;
-    shared.tick_missing   = false;
+    in->raw             = board_sample();
+    in->board_faults    = board_fault_read();
+    in->background_lost = background_lost();
+    in->memory_changed  = shared.memory_changed;
+    in->tick_missing    = shared.tick_missing;
+    shared.tick_missing = false;
+#if BOARD_CHOPPER
+    drive_chopper(in->raw);
+#endif
     const bool     was_on = tick_side.modes.gate_on;
     const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
@@ -532,6 +548,9 @@ void app_tell_image(const app_image_t *image)
     if (image->other_board) {
         tick_side.modes.mode  = APP_MODE_FAULT;
         tick_side.modes.fault = APP_FAULT_CONFIG;
+#if BOARD_CHOPPER
+        app_chopper_init(&tick_side.modes.chopper, NULL, tick_side.drive->ts_s);
+#endif
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include "app_align.h"
 #include "app_angle.h"
+#include "app_chopper.h"
 #include "app_gate.h"
 #include "app_scale.h"
 #include "app_stop.h"
@@ -26,6 +27,7 @@ typedef struct {
     app_gate_config_t       gate;
     app_stop_config_t       stop;
     app_watch_heat_config_t heat;
+    app_chopper_config_t    chopper;
     float       zero_drift_A; /**< allowed drift of a current offset with the bridge open, > 0 */
     float       temperature_limit_degC; /**< no start above */
     float       temperature_trip_degC;  /**< fault above; > the limit */

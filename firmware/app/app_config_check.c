@@ -33,8 +33,8 @@ static bool values_ok(const app_config_t *c)
            base_in_range(c->temperature_limit_degC, -100.0f, c->temperature_trip_degC) &&
            ((c->board.current_sensors == 2U) ||
             (c->board.current_sensors == (uint16_t)BOARD_CURRENT_SENSORS)) &&
-           (c->calibrate_ticks > 0U) && (c->background_ticks > 0U) &&
-           base_in_range(c->zero_drift_A, 1.0e-6f, 1.0e6f);
+           (c->board.chopper <= (uint16_t)BOARD_CHOPPER) && (c->calibrate_ticks > 0U) &&
+           (c->background_ticks > 0U) && base_in_range(c->zero_drift_A, 1.0e-6f, 1.0e6f);
 }
 
 static bool line_ok(const app_config_t *c)
@@ -57,7 +57,9 @@ static bool parts_ok(const app_config_t *c, const drive_config_t *d)
            (app_angle_check(&c->angle, d) == CTL_OK) && (app_align_check(&c->align, d) == CTL_OK) &&
            (app_gate_check(&c->gate, c->board.duty_full_cnt) == CTL_OK) &&
            (app_stop_check(&c->stop, d) == CTL_OK) &&
-           (app_watch_heat_check(&c->heat, d->current_max_A, app_slow_s(d->ts_s)) == CTL_OK);
+           (app_watch_heat_check(&c->heat, d->current_max_A, app_slow_s(d->ts_s)) == CTL_OK) &&
+           (app_chopper_check(&c->chopper, c->board.chopper != 0U, c->scale.dc_link_V_per_cnt,
+                              d->dc_link_max_V, app_slow_s(d->ts_s)) == CTL_OK);
 }
 
 ctl_status_t app_config_check(const app_config_t *config, const drive_config_t *drive)

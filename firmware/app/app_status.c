@@ -85,6 +85,10 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->held                = false;
     s->homing              = APP_HOMING_IDLE;
     s->inputs              = 0U;
+#if BOARD_CHOPPER
+    s->chopper      = app_chopper_state(&m->chopper);
+    s->chopper_heat = m->chopper.heat;
+#endif
 #if APP_DISC_MAP
     s->disc = m->angle.disc.state;
 #endif

@@ -8,6 +8,7 @@
 
 #include "app_align.h"
 #include "app_angle.h"
+#include "app_chopper.h"
 #include "app_commission.h"
 #include "app_homing.h"
 #include "app_objects.h"
@@ -122,6 +123,10 @@ typedef struct {
     uint16_t                inputs;              /**< active ones, BOARD_INPUT_ bits */
     float                   torque_share;        /**< RUN only: by the model, of the rated torque */
     float                   torque_demand_share; /**< RUN only: the same of their references */
+#if BOARD_CHOPPER
+    app_chopper_state_t chopper;
+    float               chopper_heat; /**< 1: of the rated power */
+#endif
 #if APP_DISC_MAP
     app_disc_state_t disc; /**< map of the disc, app_disc.h */
 #endif

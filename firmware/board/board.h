@@ -22,6 +22,11 @@
 #define BOARD_CURRENT_SENSORS 2
 #endif
 
+/** 1: the firmware may switch a brake chopper. CMake finds it in board_config.c. */
+#ifndef BOARD_CHOPPER
+#define BOARD_CHOPPER 0
+#endif
+
 /** Measurements at the start of the present control period. */
 typedef struct {
     uint16_t ia_cnt;          /**< phase current a, 0 .. BOARD_ADC_CODES - 1 */
@@ -47,6 +52,7 @@ typedef struct {
     uint16_t dead_time_cnt;   /**< of the gates, in the same counts */
     uint16_t positions;       /**< of the encoder per turn: four for each line */
     uint16_t current_sensors; /**< 2: phases a and b; 3: c too */
+    uint16_t chopper;         /**< 1: a brake chopper at its pin */
 } board_setup_t;
 
 /** On-time of the upper switches, 0 .. duty_full_cnt. A larger value acts as duty_full_cnt. */
@@ -142,6 +148,17 @@ const board_sample_t *board_sample(void);
 
 /** Duty ratios that act from the start of the next period. Context: control ISR. */
 void board_duty_write(const board_duty_t *duty);
+
+/**
+ * @brief Switches the resistor of the brake chopper.
+ *
+ * On lasts for one and a half PWM periods: call it in every period. A program that stops, a
+ * debugger or a reset therefore end it. board_gate_trip() does not, as an open bridge may charge
+ * the dc link. Call it only if the setup has a chopper.
+ *
+ * Context: control ISR.
+ */
+void board_chopper_write(bool on);
 
 /**
  * @brief Enables the gates from the start of the next period on.

@@ -20,6 +20,7 @@ const app_config_t board_config = {
         .dead_time_cnt = 225U,
         .positions = 10000U,
         .current_sensors = 2U,
+        .chopper = 0U,
     },
     .pwm_period_s = 1.99999995e-04f,
     .dead_time_s = 3.00000011e-06f,
@@ -68,6 +69,12 @@ const app_config_t board_config = {
         .inverter_A = 5.00000000e+00f,
         .inverter_s = 2.00000000e+00f,
     },
+    .chopper = {
+        .on_cnt = 0U,
+        .off_cnt = 0U,
+        .per_V2 = 0.00000000e+00f,
+        .tau_s = 0.00000000e+00f,
+    },
     .zero_drift_A = 4.00000006e-01f,
     .temperature_limit_degC = 8.00000000e+01f,
     .temperature_trip_degC = 9.00000000e+01f,
@@ -104,6 +111,11 @@ const board_identity_t board_identity = {
         5.00000000e+00f, /* inverter_current_A */
         2.00000000e+00f, /* inverter_time_constant_s */
         6.25000000e+06f, /* encoder_edges_Hz */
+        0.00000000e+00f, /* chopper_on_V */
+        0.00000000e+00f, /* chopper_off_V */
+        0.00000000e+00f, /* chopper_resistance_Ohm */
+        0.00000000e+00f, /* chopper_power_W */
+        0.00000000e+00f, /* chopper_time_constant_s */
     },
-    .sum = 0x15FF87F9UL,
+    .sum = 0xF1F69D26UL,
 };

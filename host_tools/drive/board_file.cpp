@@ -46,6 +46,11 @@ std::array<Range, BOARD_FACT_COUNT> allowed_values()
     a[BOARD_FACT_INVERTER_CURRENT_A]       = current_A;
     a[BOARD_FACT_INVERTER_TIME_CONSTANT_s] = {1e-2, 1e5};
     a[BOARD_FACT_ENCODER_EDGES_Hz]         = {1e3, 1e8};
+    a[BOARD_FACT_CHOPPER_ON_V]             = dc_link_V;
+    a[BOARD_FACT_CHOPPER_OFF_V]            = dc_link_V;
+    a[BOARD_FACT_CHOPPER_RESISTANCE_Ohm]   = {0.1, 1e5};
+    a[BOARD_FACT_CHOPPER_POWER_W]          = {0.1, 1e6};
+    a[BOARD_FACT_CHOPPER_TIME_CONSTANT_s]  = {1.0, 1e5};
     return a;
 }
 
@@ -65,6 +70,26 @@ std::string read_name(TomlReader &t)
         t.fail("name", fmt::format("must be 1 .. {} of A-Z a-z 0-9 _ -", longest));
     }
     return name;
+}
+
+/// A board without any of these keys has no brake chopper: 0. One of them asks for all.
+double read_chopper(TomlReader &t, std::size_t fact, Range allowed)
+{
+    bool any = false;
+    for (int n = BOARD_FACT_CHOPPER_ON_V; n <= BOARD_FACT_CHOPPER_TIME_CONSTANT_s; n++) {
+        any = any || t.has(key_of(n));
+    }
+    return any ? t.number(key_of(static_cast<int>(fact)), allowed) : 0.0;
+}
+
+double read_fact(TomlReader &t, std::size_t fact, Range allowed)
+{
+    if (fact >= BOARD_FACT_CHOPPER_ON_V && fact <= BOARD_FACT_CHOPPER_TIME_CONSTANT_s) {
+        return read_chopper(t, fact, allowed);
+    }
+    const char *key = key_of(static_cast<int>(fact));
+    return fact == BOARD_FACT_CURRENT_SENSORS ? t.number_or(key, allowed, two_sensors)
+                                              : t.number(key, allowed);
 }
 
 /// The first fact must be below the second, or not above it.
@@ -93,10 +118,7 @@ BoardFile read_board_table(const toml::table &root, const fs::path &file)
     }
     const std::array<Range, BOARD_FACT_COUNT> allowed = allowed_values();
     for (std::size_t fact = 0; fact < allowed.size(); fact++) {
-        const char *key  = key_of(static_cast<int>(fact));
-        b.facts.at(fact) = fact == BOARD_FACT_CURRENT_SENSORS
-                               ? t.number_or(key, allowed.at(fact), two_sensors)
-                               : t.number(key, allowed.at(fact));
+        b.facts.at(fact) = read_fact(t, fact, allowed.at(fact));
     }
     t.reject_unknown_keys();
     if (b[BOARD_FACT_CURRENT_SENSORS] != std::floor(b[BOARD_FACT_CURRENT_SENSORS])) {
@@ -106,6 +128,10 @@ BoardFile read_board_table(const toml::table &root, const fs::path &file)
     ordered(t, b, BOARD_FACT_RATED_CURRENT_A, BOARD_FACT_TRIP_CURRENT_A, true);
     ordered(t, b, BOARD_FACT_TRIP_CURRENT_A, BOARD_FACT_CURRENT_RANGE_A, false);
     ordered(t, b, BOARD_FACT_RATED_DC_LINK_V, BOARD_FACT_DC_LINK_RANGE_V, false);
+    if (b[BOARD_FACT_CHOPPER_ON_V] > 0.0) {
+        ordered(t, b, BOARD_FACT_CHOPPER_OFF_V, BOARD_FACT_CHOPPER_ON_V, true);
+        ordered(t, b, BOARD_FACT_CHOPPER_ON_V, BOARD_FACT_RATED_DC_LINK_V, true);
+    }
     ordered(t, b, BOARD_FACT_TEMPERATURE_LIMIT_degC, BOARD_FACT_TEMPERATURE_TRIP_degC, true);
     return b;
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "drive/board_section.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "drive/dc_link_levels.hpp"
 #include "drive/drive_file.hpp"
 
 namespace sdre {
@@ -92,6 +95,31 @@ std::string beyond(double value, const BoardFile &board, const char *bound, boar
                        board.name);
 }
 
+/// The chopper's levels have to suit the dc link of the drive. The line names the board file's key.
+std::pair<std::string, std::string> chopper_refusal(const Drive &d)
+{
+    const BoardFile &b       = *d.board.file;
+    const double     on_V    = b[BOARD_FACT_CHOPPER_ON_V];
+    const double     off_V   = b[BOARD_FACT_CHOPPER_OFF_V];
+    const double     v_dc    = d.inverter.dc_link_V;
+    const double     trip_V  = std::min(dc_link_max_ratio * v_dc, b[BOARD_FACT_RATED_DC_LINK_V]);
+    const auto       refused = [&](double value, double above_V, const char *why, double below_V,
+                             const char *bound) {
+        return fmt::format("= {:g} of {} is not allowed with a dc link of {:g} V: must be above "
+                                       "{:g}, {}, and below {:g}, {}",
+                                 value, b.file, v_dc, above_V, why, below_V, bound);
+    };
+    if (on_V <= regen_end_ratio * v_dc || on_V >= trip_V) {
+        return {"chopper_on_V", refused(on_V, regen_end_ratio * v_dc,
+                                        "the end of the regeneration limit", trip_V, "the trip")};
+    }
+    if (off_V <= regen_start_ratio * v_dc) {
+        return {"chopper_off_V", refused(off_V, regen_start_ratio * v_dc, "what a supply may reach",
+                                         on_V, "chopper_on_V")};
+    }
+    return {};
+}
+
 } // namespace
 
 double board_number(TomlReader &t, const std::string &key, Range allowed,
@@ -156,7 +184,12 @@ std::pair<std::string, std::string> board_refusal(const Drive &d)
                             d.encoder.lines, encoder_edges_Hz(d), trip_speed_e_radps(d),
                             b[BOARD_FACT_ENCODER_EDGES_Hz], b.name)};
     }
-    return {};
+    return has_chopper(d) ? chopper_refusal(d) : std::pair<std::string, std::string>{};
+}
+
+bool has_chopper(const Drive &d)
+{
+    return d.board.file && (*d.board.file)[BOARD_FACT_CHOPPER_ON_V] > 0.0;
 }
 
 const char *stop_reaction_name(StopReaction reaction)

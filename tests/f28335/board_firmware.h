@@ -20,6 +20,8 @@ extern "C" {
 typedef struct {
     /* Set by the test. */
     bool          enable;        /**< gates on from the next tick */
+    bool          chops;         /**< the tick commands the chopper */
+    bool          chopper;       /**< on */
     bool          trip;          /**< gates off from the next tick */
     bool          serve;         /**< the background serves the watchdog */
     double        tick_lasts_us; /**< more than nothing: the next tick takes this long, once */

@@ -29,7 +29,7 @@ protected:
         b                    = board_firmware_t{};
         b.serve              = true;
         b.updates            = 1;
-        b.setup              = {30000U, 7500U, 225U, 10000U, 2U}; // 5 kHz, 3 us, 2500 lines
+        b.setup              = {30000U, 7500U, 225U, 10000U, 2U, 0U}; // 5 kHz, 3 us, 2500 lines
         b.duty               = {3000, 3750, 7500};
         around.input_V[1][1] = 1.0;
     }
@@ -124,7 +124,7 @@ TEST_F(F28335Board, PwmRegisters)
 TEST_F(F28335Board, RegistersFollowTheSetup)
 {
     auto &b = const_cast<board_firmware_t &>(board_firmware);
-    b.setup = {7500U, 1875U, 38U, 4096U, 2U};
+    b.setup = {7500U, 1875U, 38U, 4096U, 2U, 0U};
     start();
     EXPECT_EQ(EPwm3Regs.TBPRD, 1875U);
     EXPECT_EQ(EPwm3Regs.DBRED, 38U);
@@ -142,14 +142,16 @@ TEST_F(F28335Board, RegistersFollowTheSetup)
 TEST_F(F28335Board, SetupsThatNoRegisterHoldsAreRefused)
 {
     auto &b = const_cast<board_firmware_t &>(board_firmware);
-    for (const board_setup_t &setup :
-         {board_setup_t{0U, 0U, 225U, 10000U, 2U}, board_setup_t{30004U, 7500U, 225U, 10000U, 2U},
-          board_setup_t{65536U, 16384U, 225U, 10000U, 2U},
-          board_setup_t{30000U, 7500U, 0U, 10000U, 2U},
-          board_setup_t{30000U, 7500U, 1024U, 10000U, 2U},
-          board_setup_t{1000U, 250U, 125U, 10000U, 2U}, board_setup_t{30000U, 7500U, 225U, 0U, 2U},
-          board_setup_t{30000U, 7500U, 225U, 10000U, 1U},
-          board_setup_t{30000U, 7500U, 225U, 10000U, 4U}}) {
+    for (const board_setup_t &setup : {board_setup_t{0U, 0U, 225U, 10000U, 2U, 0U},
+                                       board_setup_t{30004U, 7500U, 225U, 10000U, 2U, 0U},
+                                       board_setup_t{65536U, 16384U, 225U, 10000U, 2U, 0U},
+                                       board_setup_t{30000U, 7500U, 0U, 10000U, 2U, 0U},
+                                       board_setup_t{30000U, 7500U, 1024U, 10000U, 2U, 0U},
+                                       board_setup_t{1000U, 250U, 125U, 10000U, 2U, 0U},
+                                       board_setup_t{30000U, 7500U, 225U, 0U, 2U, 0U},
+                                       board_setup_t{30000U, 7500U, 225U, 10000U, 1U, 0U},
+                                       board_setup_t{30000U, 7500U, 225U, 10000U, 4U, 0U},
+                                       board_setup_t{30000U, 7500U, 225U, 10000U, 2U, 2U}}) {
         b.setup       = setup;
         b.init_result = true;
         device.reset();
@@ -179,7 +181,7 @@ TEST_F(F28335Board, ConverterRegisters)
 TEST_F(F28335Board, ThirdCurrentSensorIsReadWhenThereIsOne)
 {
     auto &b                  = const_cast<board_firmware_t &>(board_firmware);
-    b.setup                  = board_setup_t{30000U, 7500U, 225U, 10000U, 3U};
+    b.setup                  = board_setup_t{30000U, 7500U, 225U, 10000U, 3U, 0U};
     around.input_V[0][0]     = 1.0; // 1365.3
     around.input_V[1][1]     = 1.5;
     around.input_V[1][2]     = 2.0; // 2730.7
@@ -194,6 +196,86 @@ TEST_F(F28335Board, ThirdCurrentSensorIsReadWhenThereIsOne)
     EXPECT_EQ(board_firmware.sample.ic_cnt, 2730);
     EXPECT_EQ(board_firmware.ticks - tick, 50U);
     EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+}
+
+TEST_F(F28335Board, ChopperRegisters)
+{
+    auto &b = const_cast<board_firmware_t &>(board_firmware);
+    b.setup = board_setup_t{30000U, 7500U, 225U, 10000U, 2U, 1U};
+    start();
+    // Counts up 0, period without shadow (3), no sync out 3 (5:4), SYSCLK / 2 (9:7 = 1), runs in a halt (15:14 = 2).
+    EXPECT_EQ(EPwm5Regs.TBCTL.all, (1U << 3) | (3U << 4) | (1U << 7) | (2U << 14));
+    EXPECT_EQ(EPwm5Regs.TBPRD, 65535U);
+    // 1.5 periods of 15000 counts, without a shadow (4); there A is cleared (5:4 = 1), nothing sets it.
+    EXPECT_EQ(EPwm5Regs.CMPA.half.CMPA, 22500U);
+    EXPECT_EQ(EPwm5Regs.CMPCTL.all, 1U << 4);
+    EXPECT_EQ(EPwm5Regs.AQCTLA.all, 1U << 4);
+    EXPECT_EQ(EPwm5Regs.AQCTLB.all, 0U);
+    EXPECT_EQ(EPwm5Regs.DBCTL.all, 0U);
+    // No trip: a fast motor charges the link through an open bridge.
+    EXPECT_EQ(EPwm5Regs.TZSEL.all, 0U);
+    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 4) | (1U << 14));
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 16) | (1UL << 24));
+    EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
+    EXPECT_FALSE(device->chopper_is_on());
+}
+
+TEST_F(F28335Board, ChopperEndsWithItsCommandsAndNotWithTheBridge)
+{
+    auto &b   = const_cast<board_firmware_t &>(board_firmware);
+    b.setup   = board_setup_t{30000U, 7500U, 225U, 10000U, 2U, 1U};
+    Device &d = start();
+    b.chopper = true;
+    b.chops   = true;
+    enable_gates();
+    EXPECT_TRUE(d.chopper_is_on());
+    d.set_fault_pin(true); // TZ1
+    board_firmware.trip = true;
+    for (int n = 0; n < 100;
+         n++) { // a bridge that trips does not end it, and no gap comes between two commands
+        d.run_for(0.1 * period_s);
+        EXPECT_TRUE(d.chopper_is_on());
+    }
+    EXPECT_TRUE(all_legs(false));
+    b.chopper = false;
+    d.run_for(period_s);
+    EXPECT_FALSE(d.chopper_is_on());
+    b.chopper = true;
+    d.run_for(period_s);
+    EXPECT_TRUE(d.chopper_is_on());
+
+    const std::uint32_t tick = board_firmware.ticks;
+    d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 1e-6);
+    b.chops             = false; // no commands
+    const double last_s = d.time_s();
+    d.run_until([&] { return !d.chopper_is_on(); }, 4 * period_s, 1e-6);
+    EXPECT_NEAR(d.time_s() - last_s, 1.5 * period_s, 3e-6);
+    d.run_for(10 * period_s); // the counter comes around
+    EXPECT_FALSE(d.chopper_is_on());
+    for (const Findings::Entry &e : d.findings().all()) {
+        ADD_FAILURE() << e.text;
+    }
+}
+
+TEST_F(F28335Board, ChopperEndsWhenTicksHang)
+{
+    auto &b   = const_cast<board_firmware_t &>(board_firmware);
+    b.setup   = board_setup_t{30000U, 7500U, 225U, 10000U, 2U, 1U};
+    Device &d = start();
+    b.chopper = true;
+    b.chops   = true;
+    d.run_for(5 * period_s);
+    EXPECT_TRUE(d.chopper_is_on());
+    d.mask_interrupts();
+    d.run_for(2.6 * period_s);
+    EXPECT_FALSE(d.chopper_is_on());
+
+    Device &again = start();
+    again.run_for(5 * period_s);
+    EXPECT_TRUE(again.chopper_is_on());
+    board_firmware.serve = false; // the watchdog resets
+    EXPECT_TRUE(again.run_until([&] { return again.was_reset(); }, 10e-3));
+    EXPECT_FALSE(again.chopper_is_on());
 }
 
 TEST_F(F28335Board, EncoderRegisters)

@@ -8,6 +8,7 @@
 #include "design/board/board_constants.hpp"
 #include "design/board/identity.hpp"
 #include "design/design.hpp"
+#include "design/trip_levels.hpp"
 #include "temp_dir.hpp"
 
 extern "C" {
@@ -205,6 +206,52 @@ TEST(BoardConstants, TripLevelsAreWithinTheBoard)
     EXPECT_EQ(largest_trip_dc_link_V(d), 400.0);
     d.board.file.reset();
     EXPECT_NEAR(largest_trip_current_A(d), 9.502, 0.001);
+}
+
+namespace {
+
+Drive with_chopper()
+{
+    Drive d                               = shipped();
+    auto &f                               = d.board.file->facts;
+    f[BOARD_FACT_CHOPPER_ON_V]            = 385.0;
+    f[BOARD_FACT_CHOPPER_OFF_V]           = 375.0;
+    f[BOARD_FACT_CHOPPER_POWER_W]         = 50.0;
+    f[BOARD_FACT_CHOPPER_RESISTANCE_Ohm]  = 100.0;
+    f[BOARD_FACT_CHOPPER_TIME_CONSTANT_s] = 20.0;
+    return d;
+}
+
+} // namespace
+
+TEST(BoardConstants, ChopperInCodes)
+{
+    const app_config_t c = board_constants(with_chopper()).config;
+    EXPECT_EQ(c.board.chopper, 1U);
+    EXPECT_EQ(c.chopper.on_cnt, 3504U);  // 385 x 4096 / 450 = 3504.4
+    EXPECT_EQ(c.chopper.off_cnt, 3413U); // 3413.3
+    EXPECT_FLOAT_EQ(c.chopper.per_V2, 2e-4F);
+    EXPECT_EQ(c.chopper.tau_s, 20.0F);
+    EXPECT_EQ(board_constants(shipped()).config.board.chopper, 0U);
+    EXPECT_EQ(board_constants(shipped()).config.chopper.on_cnt, 0U);
+
+    Drive d                                      = with_chopper();
+    d.board.file->facts[BOARD_FACT_CHOPPER_ON_V] = 399.0;
+    EXPECT_NE(refusal(d).find("below 398.25, the trip"), std::string::npos) << refusal(d);
+}
+
+// The law may feed back as much as it likes until the chopper is on, and nothing halfway to the trip.
+TEST(BoardConstants, ChopperRaisesTheLimitOfRegenerationWhenTheDriveNamesIt)
+{
+    Drive d = with_chopper();
+    EXPECT_NEAR(regeneration_limit(d).start_V, 324.5, 1e-9);
+    EXPECT_NEAR(regeneration_limit(d).end_V, 368.75, 1e-9);
+    d.inverter.regeneration = DcLinkSink::brake_chopper;
+    EXPECT_NEAR(regeneration_limit(d).start_V, 385.0, 1e-9);
+    EXPECT_NEAR(regeneration_limit(d).end_V, 391.625, 1e-9);
+    d.board.file->facts[BOARD_FACT_CHOPPER_ON_V] =
+        0.0; // one outside the board: nobody knows its level
+    EXPECT_NEAR(regeneration_limit(d).start_V, 324.5, 1e-9);
 }
 
 TEST(BoardIdentity, IsThatOfTheBoardFileWithItsSum)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/drive_file.hpp"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -918,6 +919,10 @@ std::string board_complaint(const std::string &board)
     return "accepted";
 }
 
+const std::string chopper_keys =
+    "chopper_on_V = 385.0\nchopper_off_V = 375.0\nchopper_resistance_Ohm = 100.0\n"
+    "chopper_power_W = 50.0\nchopper_time_constant_s = 20.0\n";
+
 std::string own_text()
 {
     return with_line(board_text(), "name", "\"own\"");
@@ -1016,18 +1021,50 @@ TEST(DriveFile, LimitsBeyondTheBoardAreRefused)
     expect_complaint(on_board().set("board", "name", "\"../board_390w\""), {"[board] name must"});
 }
 
+// 295 V: the limit of regeneration ends at 368.75, the trip is at 398.25.
+TEST(DriveFile, ChopperLevelsHaveToSuitTheDcLink)
+{
+    const TempDir dir;
+    const auto    file      = dir.write("d.toml", on_board().str());
+    const auto    complaint = [&](const char *key, const char *value) {
+        dir.write("board_390w.toml", with_line(board_text() + chopper_keys, key, value));
+        try {
+            sdre::read_drive_file(file);
+        } catch (const sdre::InputError &e) {
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(complaint("chopper_on_V", "385.0"), "accepted");
+    EXPECT_EQ(complaint("chopper_off_V", "324.6"), "accepted");
+    for (const auto &[key, value, bound] : std::vector<std::array<const char *, 3>>{
+             {"chopper_on_V", "398.3", "below 398.25, the trip"},
+             {"chopper_off_V", "324.5", "above 324.5, what a supply may reach"}}) {
+        const std::string what = complaint(key, value);
+        EXPECT_NE(what.find(std::string(key) + " = " + value), std::string::npos) << what;
+        EXPECT_NE(what.find("board_390w.toml"), std::string::npos) << what;
+        EXPECT_NE(what.find(bound), std::string::npos) << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    }
+    dir.write("board_390w.toml",
+              with_line(with_line(board_text() + chopper_keys, "chopper_off_V", "360.0"),
+                        "chopper_on_V", "368.0"));
+    EXPECT_THROW(sdre::read_drive_file(file), sdre::InputError);
+}
+
 TEST(BoardFile, EveryFactIsRequiredAndHasItsRange)
 {
     EXPECT_EQ(board_complaint(own_text()), "accepted");
+    const std::string text = own_text() + chopper_keys;
+    EXPECT_EQ(board_complaint(text), "accepted");
     for (int fact = 0; fact < BOARD_FACT_COUNT; fact++) {
         const std::string key = fact_name(fact);
         if (fact != BOARD_FACT_CURRENT_SENSORS) {
-            EXPECT_EQ(board_complaint(with_line(own_text(), key, "")).rfind(key + " is missing", 0),
-                      0U)
+            EXPECT_EQ(board_complaint(with_line(text, key, "")).rfind(key + " is missing", 0), 0U)
                 << key;
         }
         for (const char *value : {"-1e3", "1e12", "nan", "inf", "\"1\"", "true"}) {
-            EXPECT_EQ(board_complaint(with_line(own_text(), key, value)).rfind(key + " ", 0), 0U)
+            EXPECT_EQ(board_complaint(with_line(text, key, value)).rfind(key + " ", 0), 0U)
                 << key << value;
         }
     }
@@ -1043,8 +1080,10 @@ TEST(BoardFile, RatingsAreInOrder)
              {"rated_current_A", "9.0", "trip_current_A = 9"},
              {"trip_current_A", "10.1", "current_range_A = 10"},
              {"rated_dc_link_V", "450.1", "dc_link_range_V = 450"},
+             {"chopper_off_V", "385.0", "chopper_on_V = 385"},
+             {"chopper_on_V", "450.0", "rated_dc_link_V = 450"},
              {"temperature_limit_degC", "90.0", "temperature_trip_degC = 90"}}) {
-        const std::string what = board_complaint(with_line(own_text(), key, value));
+        const std::string what = board_complaint(with_line(own_text() + chopper_keys, key, value));
         EXPECT_EQ(what.rfind(key + " = ", 0), 0U) << what;
         EXPECT_NE(what.find(bound), std::string::npos) << what;
     }

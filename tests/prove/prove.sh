@@ -99,7 +99,7 @@ analyse()
     mapfile -t files < <(files_of "$law" "$entry")
     # gcc_x86_16: int 16 bits, long and pointers 32, as on the target. Its char has 8.
     # shellcheck disable=SC2086 # options are words
-    frama-c -machdep gcc_x86_16 -c11 -cpp-extra-args="$includes -I$board/.. -I$board -DBOARD_CURRENT_SENSORS=3 -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
+    frama-c -machdep gcc_x86_16 -c11 -cpp-extra-args="$includes -I$board/.. -I$board -DBOARD_CURRENT_SENSORS=3 -DBOARD_CHOPPER=1 -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
         -eva -main "$entry" -lib-entry -warn-special-float none -eva-precision 3 -eva-msg-key=-initial-state,-final-states \
         ${apart[$entry]:+-eva-slevel-function "${apart[$entry]}"} ${options[$entry]:-} >"$log" 2>&1 || true
     alarms=$(grep -c 'eva:alarm' "$log" || true)

@@ -35,6 +35,7 @@ FLAGS = [
     "-DUNITY_SUPPORT_64",
     "-DFIELDS_NAMED",  # as on every host, and the next
     "-DBOARD_CURRENT_SENSORS=3",
+    "-DBOARD_CHOPPER=1",
     "-DAPP_DISC_MAP=1",
     *[f"-I{p}" for p in INCLUDES],
 ]

@@ -90,6 +90,12 @@ void board_duty_write(const board_duty_t *duty)
     fake_board.duty = *duty;
 }
 
+void board_chopper_write(bool on)
+{
+    fake_board.chopper = on;
+    fake_board.chopper_writes++;
+}
+
 void board_gate_enable(void)
 {
     note(FAKE_BOARD_ENABLE);

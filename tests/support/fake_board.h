@@ -40,6 +40,8 @@ typedef struct {
     uint16_t             faults; /* latched */
     bool                 gate;
     board_duty_t         duty;
+    bool                 chopper;
+    int                  chopper_writes;
     bool                 stack_spoilt;
     int                  served; /* watchdog */
     bool                 misfit; /* board_fits() refuses */

@@ -133,6 +133,37 @@ static void check_limits(check_t *c)
     at_most(c, BOARD_FACT_ENCODER_EDGES_Hz, turn_Hz * positions);
 }
 
+/* EQ-BOARD-7. A level is a whole code. */
+static void check_level(check_t *c, board_fact_t fact, uint16_t level_cnt)
+{
+    const float per_cnt_V = c->app->scale.dc_link_V_per_cnt;
+    const float image_V   = (float)level_cnt * per_cnt_V;
+    const float board_V   = c->board->fact[fact];
+
+    note(c, fact, image_V, base_in_range(image_V, board_V - per_cnt_V, board_V + per_cnt_V));
+}
+
+static void check_chopper(check_t *c)
+{
+    const app_chopper_config_t *r     = &c->app->chopper;
+    const float                 r_Ohm = c->board->fact[BOARD_FACT_CHOPPER_RESISTANCE_Ohm];
+    const bool                  there = c->board->fact[BOARD_FACT_CHOPPER_ON_V] > 0.0f;
+
+    note(c, BOARD_FACT_CHOPPER_ON_V, 0.0f,
+         ((c->app->board.chopper != 0U) == there) && ((r->on_cnt > 0U) == there));
+    if (there) {
+        check_level(c, BOARD_FACT_CHOPPER_ON_V, r->on_cnt);
+        check_level(c, BOARD_FACT_CHOPPER_OFF_V, r->off_cnt);
+        must_be(c, BOARD_FACT_CHOPPER_POWER_W, 1.0f / (r->per_V2 * r_Ohm));
+        must_be(c, BOARD_FACT_CHOPPER_TIME_CONSTANT_s, r->tau_s);
+    } else {
+        must_be(c, BOARD_FACT_CHOPPER_OFF_V, 0.0f);
+        must_be(c, BOARD_FACT_CHOPPER_RESISTANCE_Ohm, 0.0f);
+        must_be(c, BOARD_FACT_CHOPPER_POWER_W, 0.0f);
+        must_be(c, BOARD_FACT_CHOPPER_TIME_CONSTANT_s, 0.0f);
+    }
+}
+
 board_difference_t app_board_check(const board_identity_t *board, const app_config_t *config,
                                    const drive_config_t *drive)
 {
@@ -142,5 +173,6 @@ board_difference_t app_board_check(const board_identity_t *board, const app_conf
     check_scale(&c);
     check_temperature(&c);
     check_limits(&c);
+    check_chopper(&c);
     return c.found;
 }

@@ -28,6 +28,11 @@ const char *board_field_name(uint16_t field)
         [BOARD_FACT_INVERTER_CURRENT_A]       = "inverter_current_A",
         [BOARD_FACT_INVERTER_TIME_CONSTANT_s] = "inverter_time_constant_s",
         [BOARD_FACT_ENCODER_EDGES_Hz]         = "encoder_edges_Hz",
+        [BOARD_FACT_CHOPPER_ON_V]             = "chopper_on_V",
+        [BOARD_FACT_CHOPPER_OFF_V]            = "chopper_off_V",
+        [BOARD_FACT_CHOPPER_RESISTANCE_Ohm]   = "chopper_resistance_Ohm",
+        [BOARD_FACT_CHOPPER_POWER_W]          = "chopper_power_W",
+        [BOARD_FACT_CHOPPER_TIME_CONSTANT_s]  = "chopper_time_constant_s",
     };
     const char *name = "";
 

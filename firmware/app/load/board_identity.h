@@ -35,6 +35,11 @@ typedef enum {
     BOARD_FACT_INVERTER_CURRENT_A, /**< continuous, peak of a phase */
     BOARD_FACT_INVERTER_TIME_CONSTANT_s,
     BOARD_FACT_ENCODER_EDGES_Hz, /**< most edges of both tracks a second */
+    BOARD_FACT_CHOPPER_ON_V,     /**< of the dc link; 0, as the next: no brake chopper */
+    BOARD_FACT_CHOPPER_OFF_V,
+    BOARD_FACT_CHOPPER_RESISTANCE_Ohm,
+    BOARD_FACT_CHOPPER_POWER_W,         /**< continuous */
+    BOARD_FACT_CHOPPER_TIME_CONSTANT_s, /**< of the resistor's heat */
     BOARD_FACT_COUNT
 } board_fact_t;
 

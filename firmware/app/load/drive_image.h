@@ -12,7 +12,7 @@
  *     14 .. 29 name of the drive, in the same format
  *     30 .. 41 name of the board that it was made for, in the same format
  *     42 ..    facts of that board (board_identity.h), two words each
- *     80 ..    constants of application and board, temperatures, drive, law; order of fields.h
+ *     92 ..    constants of application and board, temperatures, drive, law; order of fields.h
  *     ..       a map of the encoder disc (app_disc.h), or nothing
  */
 #ifndef DRIVE_IMAGE_H
@@ -23,7 +23,7 @@
 #include "drive_config.h"
 #include "laws.h"
 
-#define DRIVE_IMAGE_SCHEMA       5U  /**< incremented when the meaning of a word changes */
+#define DRIVE_IMAGE_SCHEMA       6U  /**< incremented when the meaning of a word changes */
 #define DRIVE_IMAGE_DIGEST_WORDS 12U /**< length that sdre-gains writes */
 #define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters; longer names are cut */
 #define DRIVE_IMAGE_TEMPERATURES 32U /**< chosen: sdre-gains writes 28 points */

@@ -8,6 +8,7 @@ static void setup(fields_t *f, board_setup_t *c)
     fields_u16(f, FIELD(f, c, dead_time_cnt));
     fields_u16(f, FIELD(f, c, positions));
     fields_u16(f, FIELD(f, c, current_sensors));
+    fields_u16(f, FIELD(f, c, chopper));
 }
 
 static void scale(fields_t *f, app_scale_config_t *c)
@@ -70,6 +71,14 @@ static void heat(fields_t *f, app_watch_heat_config_t *c)
     fields_float(f, FIELD(f, c, inverter_s));
 }
 
+static void chopper(fields_t *f, app_chopper_config_t *c)
+{
+    fields_u16(f, FIELD(f, c, on_cnt));
+    fields_u16(f, FIELD(f, c, off_cnt));
+    fields_float(f, FIELD(f, c, per_V2));
+    fields_float(f, FIELD(f, c, tau_s));
+}
+
 void fields_app(fields_t *f, app_config_t *c)
 {
     FIELDS_PART(setup, f, c, board);
@@ -81,6 +90,7 @@ void fields_app(fields_t *f, app_config_t *c)
     FIELDS_PART(gate, f, c, gate);
     FIELDS_PART(stop, f, c, stop);
     FIELDS_PART(heat, f, c, heat);
+    FIELDS_PART(chopper, f, c, chopper);
     fields_float(f, FIELD(f, c, zero_drift_A));
     fields_float(f, FIELD(f, c, temperature_limit_degC));
     fields_float(f, FIELD(f, c, temperature_trip_degC));

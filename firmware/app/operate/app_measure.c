@@ -18,6 +18,9 @@ void app_measure(app_modes_t *m, const app_modes_input_t *in)
         }
         if ((in->slow & (uint16_t)APP_SLOW_HEAT) != 0U) {
             app_warmth_heat(m);
+#if BOARD_CHOPPER
+            app_chopper_turn(&m->chopper, in->raw, m->sample.dc_link_V, m->ticks);
+#endif
         }
     } else {
         app_angle_drop(&m->angle);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 
+#include <stddef.h>
+
 #include "app_config_check.h"
 #include "app_measure.h"
 #include "app_states.h"
@@ -48,6 +50,9 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->zero_b_A = 0.0f;
     clear_snapshot(&m->snapshot);
     m->snapshot.fault = m->fault;
+#if BOARD_CHOPPER
+    app_chopper_init(&m->chopper, ok ? &c->chopper : NULL, d->ts_s);
+#endif
 #if BOARD_CURRENT_SENSORS == 3
     app_watch_sum_init(&m->sum, c->board.current_sensors);
     m->sum_differs = false;

@@ -78,6 +78,9 @@ typedef struct {
     law_aim_t           aim;          /**< to_position or to_torque, to the drive */
     torque_command_t    to_torque;    /**< torque command to the drive */
     uint32_t            torque_ticks; /**< of the last period that followed a torque */
+#if BOARD_CHOPPER
+    app_chopper_t chopper; /**< its app_chopper_tick() is of app.c */
+#endif
 #if BOARD_CURRENT_SENSORS == 3
     app_watch_sum_t sum;
     bool            sum_differs;
@@ -99,6 +102,17 @@ APP_PART bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
 /** True if a temporary condition prevented a start in the previous tick. Context: control ISR. */
 bool app_modes_in_the_way(const app_modes_t *m);
+
+/** Scope: 1 while the chopper's resistor is on. Context: control ISR. */
+static inline float app_modes_chopper(const app_modes_t *m)
+{
+#if BOARD_CHOPPER
+    return m->chopper.on ? 1.0f : 0.0f;
+#else
+    (void)m;
+    return 0.0f;
+#endif
+}
 
 /**
  * @brief Fills the status, except reset cause and cycle counts.

@@ -40,7 +40,8 @@ enum {
     APP_REGISTERS_DEFAULTS      = 1024,
     APP_REGISTERS_IMAGE_LOST    = 2048,
     APP_REGISTERS_RECORD_LOST   = 4096,
-    APP_REGISTERS_RINGS         = 8192
+    APP_REGISTERS_RINGS         = 8192,
+    APP_REGISTERS_CHOPPER       = 16384
 };
 
 /** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
@@ -167,6 +168,15 @@ app_trim_values_t app_registers_trimmed(const app_registers_t *r);
 
 /** Blocks that taught it. */
 uint16_t app_registers_trim_blocks(const app_registers_t *r);
+
+/** State of the brake chopper, app_chopper.h. */
+app_chopper_state_t app_registers_chopper(const app_registers_t *r);
+
+/** Heat of the chopper's resistor; 0: no chopper. */
+float app_registers_chopper_heat(const app_registers_t *r);
+
+/** True if a condition keeps the chopper's resistor off. */
+bool app_registers_chopper_rests(const app_registers_t *r);
 
 /** State of the map of the encoder disc, app_disc.h. */
 app_disc_state_t app_registers_disc(const app_registers_t *r);

@@ -231,6 +231,10 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_TORQUE_DEMAND, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, torque_demand_share), false, 32U},
     {APP_REGISTERS_RATED_CURRENT, APP_REGISTERS_U32, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, rated_current_A), false, 0U},
     {APP_REGISTERS_RATED_TORQUE, APP_REGISTERS_U32, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, rated_torque_Nm), false, 0U},
+    {APP_REGISTERS_CHOPPER_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 57U, false, 0U},
+    {APP_REGISTERS_CHOPPER_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 58U, false, 0U},
+    {APP_REGISTERS_CHOPPER_ON, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 59U, false, 0U},
+    {APP_REGISTERS_CHOPPER_OFF, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 60U, false, 0U},
 };
 
 float app_registers_map_real(const app_registers_t *r, uint16_t number)
@@ -331,6 +335,15 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
     case 56U: /* FOUND_LQ_BESIDE_2_4 */
         x = app_registers_mapped(r, 4, 3);
         break;
+    case 58U: /* CHOPPER_HEAT */
+        x = app_registers_chopper_heat(r);
+        break;
+    case 59U: /* CHOPPER_ON */
+        x = (float)r->config->chopper.on_cnt * r->config->scale.dc_link_V_per_cnt;
+        break;
+    case 60U: /* CHOPPER_OFF */
+        x = (float)r->config->chopper.off_cnt * r->config->scale.dc_link_V_per_cnt;
+        break;
     default:
         break;
     }
@@ -419,6 +432,9 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
         break;
     case 33U: /* SUPPORTED_MODES */
         x = app_registers_modes(r);
+        break;
+    case 57U: /* CHOPPER_STATE */
+        x = (uint32_t)app_registers_chopper(r);
         break;
     default:
         break;

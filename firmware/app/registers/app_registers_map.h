@@ -12,7 +12,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "dc1cd3c9" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "e2eb98ef" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED 42U /**< parameters */
 
@@ -278,7 +278,13 @@ enum {
     APP_REGISTERS_RATED_CURRENT = 322,
     APP_REGISTERS_RATED_TORQUE = 324,
     APP_REGISTERS_TORQUE_NOW_FIRST = 320,
-    APP_REGISTERS_TORQUE_NOW_END = 326
+    APP_REGISTERS_TORQUE_NOW_END = 326,
+    APP_REGISTERS_CHOPPER_STATE = 416,
+    APP_REGISTERS_CHOPPER_HEAT = 417,
+    APP_REGISTERS_CHOPPER_ON = 418,
+    APP_REGISTERS_CHOPPER_OFF = 419,
+    APP_REGISTERS_CHOPPER_NOW_FIRST = 416,
+    APP_REGISTERS_CHOPPER_NOW_END = 420
 };
 
 typedef enum {
@@ -331,7 +337,7 @@ struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 68U
 
-#define APP_REGISTERS_MAP_INPUT 147U
+#define APP_REGISTERS_MAP_INPUT 151U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -53,7 +53,9 @@ uint16_t app_registers_conditions(const app_registers_t *r)
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
     const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
     const uint16_t rings   = r->ring.rings ? (uint16_t)APP_REGISTERS_RINGS : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | rings |
+    const bool     rests   = app_registers_chopper_rests(r);
+    const uint16_t chopper = rests ? (uint16_t)APP_REGISTERS_CHOPPER : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | rings | chopper |
                       limits(&r->status) | refused_parameters(r) | app_registers_lost(r));
 }
 
@@ -187,9 +189,9 @@ static bool is_off(const app_status_t *s)
 
 uint16_t app_registers_statusword(const app_registers_t *r)
 {
-    const app_status_t *s = &r->status;
-    const bool          warns =
-        s->hot || s->dc_link_out || s->tripped || s->without_angle || (app_registers_lost(r) != 0U);
+    const app_status_t *s     = &r->status;
+    const bool          warns = s->hot || s->dc_link_out || s->tripped || s->without_angle ||
+                       (app_registers_lost(r) != 0U) || app_registers_chopper_rests(r);
     const bool limited = (limits(s) != 0U) || s->held || is_at_switch(s);
 
     return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |

@@ -74,6 +74,9 @@ float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)
     case APP_SCOPE_EDGE:
         x = app_angle_edge(&v->modes->angle, &v->modes->reading);
         break;
+    case APP_SCOPE_CHOPPER:
+        x = app_modes_chopper(v->modes);
+        break;
     default:
         break;
     }

@@ -31,7 +31,8 @@ enum {
     APP_SCOPE_LOAD = 17,
     APP_SCOPE_MODE = 18,
     APP_SCOPE_EDGE = 19,
-    APP_SCOPE_SIGNALS = 20
+    APP_SCOPE_CHOPPER = 20,
+    APP_SCOPE_SIGNALS = 21
 };
 
 /** The end of a tick. */

@@ -17,7 +17,9 @@ bool board_fits(const board_setup_t *s)
            (s->pwm_cycles <= CAPTURE_CYCLES_MAX) && (s->dead_time_cnt > 0U) &&
            (s->dead_time_cnt <= CLOCK_DEAD_TIME_MAX_cnt) &&
            ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U) &&
-           ((s->current_sensors == 2U) || (s->current_sensors == (uint16_t)BOARD_CURRENT_SENSORS));
+           ((s->current_sensors == 2U) ||
+            (s->current_sensors == (uint16_t)BOARD_CURRENT_SENSORS)) &&
+           (s->chopper <= (uint16_t)BOARD_CHOPPER);
 }
 
 bool board_prepare(void)
@@ -44,6 +46,11 @@ bool board_init(const board_setup_t *setup)
     pwm_init(setup);
     gpio_connect();
     inputs_init();
+#if BOARD_CHOPPER
+    if (setup->chopper != 0U) {
+        chopper_init(setup);
+    }
+#endif
     cycles_init();
     encoder_init(setup);
     adc_init(setup);

@@ -62,6 +62,16 @@ void gpio_connect(void)
     EDIS;
 }
 
+#if BOARD_CHOPPER
+void gpio_use_chopper(void)
+{
+    EALLOW;
+    GpioCtrlRegs.GPAPUD.bit.GPIO8  = 1U; /* the board pulls down */
+    GpioCtrlRegs.GPAMUX1.bit.GPIO8 = 1U; /* EPWM5A */
+    EDIS;
+}
+#endif
+
 void gpio_use_direction(void)
 {
     GpioDataRegs.GPACLEAR.all = DIRECTION_PIN; /* listening, before it is an output */

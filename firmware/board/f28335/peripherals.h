@@ -32,6 +32,7 @@ extern const board_copy_t board_copies[BOARD_COPIES]; /**< code and tables; code
 void gpio_make_safe(void);     /**< gate driver off and bridge pins low; call it first */
 void gpio_connect(void);       /**< pins to their peripherals; the bridge must be tripped */
 void inputs_init(void);        /**< pins of limit and home switches */
+void gpio_use_chopper(void);   /**< EPWM5A, which must be low */
 void gpio_use_direction(void); /**< the line's direction pin becomes an output, low */
 
 bool clock_init(void);        /**< false: no crystal or no lock */
@@ -50,6 +51,8 @@ void trip_overdue(void); /**< the same for an overrun. Context: INT13 */
 
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
+
+void chopper_init(const board_setup_t *setup); /**< off; its counter starts with the legs */
 
 void adc_init(const board_setup_t *setup); /**< about 5 ms */
 

@@ -112,3 +112,19 @@ void board_duty_write(const board_duty_t *duty)
     write_leg(&EPwm2Regs, duty->b_cnt);
     write_leg(&EPwm3Regs, duty->c_cnt);
 }
+
+#if BOARD_CHOPPER
+
+/* AQSFRC: output A, once. */
+#define CHOPPER_LOW  0x0005U
+#define CHOPPER_HIGH 0x0006U
+
+void board_chopper_write(bool on)
+{
+    if (on) {
+        EPwm5Regs.TBCTR = 0U; /* first: the old count may be close to CMPA, chopper.c */
+    }
+    EPwm5Regs.AQSFRC.all = on ? CHOPPER_HIGH : CHOPPER_LOW;
+}
+
+#endif

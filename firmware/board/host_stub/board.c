@@ -123,6 +123,11 @@ void board_duty_write(const board_duty_t *duty)
     stub.written = *duty;
 }
 
+void board_chopper_write(bool on)
+{
+    (void)on;
+}
+
 void board_gate_enable(void)
 {
     stub.gate = true;
@@ -145,7 +150,8 @@ board_reset_t board_reset_cause(void)
 
 bool board_fits(const board_setup_t *setup)
 {
-    return (setup->pwm_cycles == board_config.board.pwm_cycles) && (setup->current_sensors == 2U);
+    return (setup->pwm_cycles == board_config.board.pwm_cycles) && (setup->current_sensors == 2U) &&
+           (setup->chopper == 0U);
 }
 
 bool board_loader_is_wanted(void)

@@ -114,6 +114,7 @@ board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
     }
     s.positions       = static_cast<std::uint16_t>(4 * d.encoder.lines);
     s.current_sensors = static_cast<std::uint16_t>(d.current_sensors.count);
+    s.chopper         = has_chopper(d) ? 1U : 0U;
     return s;
 }
 
@@ -219,6 +220,22 @@ app_watch_heat_config_t heat_of(const Drive &d)
             single(d.board.inverter_time_constant_s)};
 }
 
+/// EQ-BOARD-7.
+app_chopper_config_t chopper_of(const Drive &d)
+{
+    app_chopper_config_t c{};
+    if (!has_chopper(d)) {
+        return c;
+    }
+    const BoardFile &b         = *d.board.file;
+    const double     cnt_per_V = codes / d.board.dc_link_range_V;
+    c.on_cnt  = static_cast<std::uint16_t>(std::lround(b[BOARD_FACT_CHOPPER_ON_V] * cnt_per_V));
+    c.off_cnt = static_cast<std::uint16_t>(std::lround(b[BOARD_FACT_CHOPPER_OFF_V] * cnt_per_V));
+    c.per_V2 = single(1.0 / (b[BOARD_FACT_CHOPPER_RESISTANCE_Ohm] * b[BOARD_FACT_CHOPPER_POWER_W]));
+    c.tau_s  = single(b[BOARD_FACT_CHOPPER_TIME_CONSTANT_s]);
+    return c;
+}
+
 } // namespace
 
 double largest_trip_current_A(const Drive &drive)
@@ -256,6 +273,7 @@ BoardConstants board_constants(const Drive &d)
     c.stop.still_e_radps = single(still_per_rated * d.motor.rated_speed_e_radps);
     c.stop.short_circuit = true; // whatever takes the energy: it need not take that of any speed
     c.heat               = heat_of(d);
+    c.chopper            = chopper_of(d);
     c.zero_drift_A       = single(zero_drift_share * 2.0 * d.current_sensors.range_A);
     c.temperature_limit_degC = single(d.board.temperature_limit_degC);
     c.temperature_trip_degC  = single(d.board.temperature_trip_degC);

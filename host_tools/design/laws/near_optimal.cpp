@@ -47,9 +47,6 @@ constexpr double coarse_share = 0.5;
 constexpr double trip_angle_rad = 0.45;
 // Chosen: 0.5 % of the torque stays for the feedback while the reference accelerates.
 constexpr double torque_share = 0.995;
-// Chosen: regeneration is full up to 10 % above the nominal dc link and nothing at 25 %, below the trip.
-constexpr double regen_start_ratio = 1.10;
-constexpr double regen_end_ratio   = 1.25;
 // A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
 constexpr double largest_mtpa_A = 1e6;
 // A motor without a magnet has k = 0; this share of the limit leaves the curve where it is.
@@ -144,26 +141,27 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact_mtpa)
     const double full_W = 1.5 * v_dc / std::sqrt(3.0) * m.max_current_A;
 
     current_ref_config_t c{};
-    c.current_max_A        = single(m.max_current_A);
-    c.iq_max_A             = single(largest_iq_A(m, k, exact));
-    c.mtpa_A               = single(std::max(k, least_mtpa_ratio * m.max_current_A));
-    c.mtpa_half_1pA        = single(0.5 / std::max(k, least_mtpa_ratio * m.max_current_A));
-    c.mtpa_exact           = exact;
-    c.circle_ApVs          = single(voltage_share * d.l[6] / std::sqrt(3.0));
-    c.torque_share         = single(torque_share);
-    c.near_e_radps         = single(near_e_radps(d));
-    c.id_rest_A            = single(d.l[0]);
-    c.flux_A               = single(weakening_flux_A(d) / weakening_speed_share);
-    c.l1_min               = single(smallest_l1_ratio * at_rest(d.l)[1]);
-    c.mtpa_per_period      = single(1.0 / mtpa_filter_periods);
-    c.weakening_per_period = single(1.0 / weakening_periods(d));
-    const double slope     = chord_slope(d);
-    c.chord_from           = single((slope * slope - 1.0) / (slope * slope + 1.0));
-    c.chord_slope          = single(slope);
-    c.samples_1ps          = single(1.0 / ts);
-    c.regen_max_W_norm     = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
-    c.regen_start_V        = single(regen_start_ratio * v_dc);
-    c.regen_per_V          = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
+    c.current_max_A               = single(m.max_current_A);
+    c.iq_max_A                    = single(largest_iq_A(m, k, exact));
+    c.mtpa_A                      = single(std::max(k, least_mtpa_ratio * m.max_current_A));
+    c.mtpa_half_1pA               = single(0.5 / std::max(k, least_mtpa_ratio * m.max_current_A));
+    c.mtpa_exact                  = exact;
+    c.circle_ApVs                 = single(voltage_share * d.l[6] / std::sqrt(3.0));
+    c.torque_share                = single(torque_share);
+    c.near_e_radps                = single(near_e_radps(d));
+    c.id_rest_A                   = single(d.l[0]);
+    c.flux_A                      = single(weakening_flux_A(d) / weakening_speed_share);
+    c.l1_min                      = single(smallest_l1_ratio * at_rest(d.l)[1]);
+    c.mtpa_per_period             = single(1.0 / mtpa_filter_periods);
+    c.weakening_per_period        = single(1.0 / weakening_periods(d));
+    const double slope            = chord_slope(d);
+    c.chord_from                  = single((slope * slope - 1.0) / (slope * slope + 1.0));
+    c.chord_slope                 = single(slope);
+    c.samples_1ps                 = single(1.0 / ts);
+    c.regen_max_W_norm            = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
+    const RegenerationLimit regen = regeneration_limit(d.drive);
+    c.regen_start_V               = single(regen.start_V);
+    c.regen_per_V                 = single(1.0 / (regen.end_V - regen.start_V));
     return c;
 }
 

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "dc1cd3c9"
+DIGEST = "e2eb98ef"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -309,8 +309,15 @@ TORQUE_NOW: Tuple[Register, ...] = (  # input
     Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
 )
 
+CHOPPER_NOW: Tuple[Register, ...] = (  # input
+    Register("CHOPPER_STATE", 416, "u16", 0.0, ""),
+    Register("CHOPPER_HEAT", 417, "u16", 0.001, ""),
+    Register("CHOPPER_ON", 418, "u16", 0.1, "V"),
+    Register("CHOPPER_OFF", 419, "u16", 0.1, "V"),
+)
+
 HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS, *HOMING)
-INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
+INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW, *CHOPPER_NOW)
 
 # Blocks that hold parameters.
 PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS, HOMING,)
@@ -384,4 +391,5 @@ SIGNALS = (
     ("LOAD", "rad/s2 electrical"),
     ("MODE", ""),
     ("EDGE", ""),
+    ("CHOPPER", ""),
 )

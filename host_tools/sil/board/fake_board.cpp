@@ -112,6 +112,11 @@ void FakeBoard::enable_gates(bool on)
     }
 }
 
+void FakeBoard::write_chopper(bool on)
+{
+    bench_.set_chopper(on, tick_delay_s);
+}
+
 void FakeBoard::set_gates(bool on)
 {
     if (on != gates_) {

@@ -52,6 +52,11 @@ void MotorSurroundings::legs_change(const std::array<bool, 3> &enabled, double i
     bench_.set_legs(enabled, into_period_s);
 }
 
+void MotorSurroundings::chopper_changes(bool on, double into_period_s)
+{
+    bench_.set_chopper(on, into_period_s);
+}
+
 double MotorSurroundings::analog_V(int side, int number)
 {
     const RawSample &s = bench_.sample();

@@ -120,6 +120,7 @@ void Device::sync()
     for (PwmUnit &unit : pwm_) {
         unit.sync(fault_pin_trips(), findings_, t);
     }
+    chopper_.sync(findings_, t);
     adc_.sync(now_);
     encoder_.sync(findings_, t);
     timer_.sync();
@@ -138,6 +139,7 @@ void Device::sync()
     }
     guard_.remember();
     update_legs();
+    update_chopper();
 }
 
 /// Lets time pass, on the firmware's stack, with the interrupts that fall into it.

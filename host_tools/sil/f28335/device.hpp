@@ -16,6 +16,7 @@
 
 #include "sil/f28335/adc_unit.hpp"
 #include "sil/f28335/can_bus.hpp"
+#include "sil/f28335/chopper_unit.hpp"
 #include "sil/f28335/clock.hpp"
 #include "sil/f28335/cpu_timer.hpp"
 #include "sil/f28335/ecan_unit.hpp"
@@ -95,6 +96,11 @@ public:
     {
         return pins_safe_;
     }
+    /// Level of the brake chopper's output.
+    bool chopper_is_on() const
+    {
+        return chopper_high_;
+    }
     const Findings &findings() const
     {
         return findings_;
@@ -154,6 +160,7 @@ public:
 private:
     void               sync();
     void               update_legs();
+    void               update_chopper();
     bool               pins_are_safe() const;
     void               wait_ticks(std::int64_t ticks);
     bool               wait_towards(std::int64_t end, bool resumed);
@@ -189,11 +196,13 @@ private:
     bool                        trigger_lost_ = false;
     bool                        masked_       = false;
     std::array<bool, 3>         legs_{};
+    bool                        chopper_high_ = false; ///< GPIO8
     Clock                       clock_;
     Watchdog                    watchdog_;
     Pie                         pie_;
     Gpio                        gpio_;
     std::array<PwmUnit, 3>      pwm_;
+    ChopperUnit                 chopper_{EPwm5Regs};
     AdcUnit                     adc_;
     EncoderUnit                 encoder_;
     CpuTimer                    timer_;

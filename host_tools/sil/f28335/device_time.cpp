@@ -10,6 +10,7 @@ namespace sdre::f28335 {
 namespace {
 
 constexpr int pin_gate_enable = 6;
+constexpr int pin_chopper     = 8;
 
 // Chosen: the unit timer follows the PWM within a few cycles; within this the shaft stands still.
 constexpr std::int64_t same_instant_ticks = 150;
@@ -56,6 +57,18 @@ void Device::update_legs()
     }
 }
 
+/// A pin that is no output is pulled down by the board.
+void Device::update_chopper()
+{
+    const bool by_unit = Gpio::is_muxed(pin_chopper, 1) && chopper_.high();
+    const bool plain   = Gpio::is_muxed(pin_chopper, 0) && gpio_.output_high(pin_chopper);
+    const bool now     = !reset_ && (by_unit || plain);
+    if (now != chopper_high_) {
+        chopper_high_ = now;
+        surroundings_.chopper_changes(now, into_period_s());
+    }
+}
+
 std::int64_t Device::ticks_to_event() const
 {
     std::int64_t next = -1;
@@ -68,6 +81,8 @@ std::int64_t Device::ticks_to_event() const
         const std::int64_t cycles = unit.cycles_to_event();
         take(cycles < 0 ? -1 : clock_.ticks_for(cycles));
     }
+    const std::int64_t chopper = chopper_.cycles_to_event();
+    take(chopper < 0 ? -1 : clock_.ticks_for(chopper));
     const std::int64_t timeout = encoder_.cycles_to_timeout();
     take(timeout < 0 ? -1 : clock_.ticks_for(timeout));
     const std::int64_t timer1 = timer1_.cycles_to_interrupt();
@@ -155,6 +170,7 @@ void Device::elapse(std::int64_t ticks)
     cycles_ += cycles;
     watchdog_.pass(ticks);
     step_pwm(cycles);
+    chopper_.step(cycles);
     step_encoder(cycles);
     if (timer_.step(cycles)) {
         pie_.request(1, 7, intm_, findings_, time_s());
@@ -173,6 +189,7 @@ void Device::elapse(std::int64_t ticks)
         findings_.add(Finding::watchdog_reset, "the watchdog has reset the device", time_s());
         update_legs();
     }
+    update_chopper();
 }
 
 } // namespace sdre::f28335

@@ -33,6 +33,12 @@ public:
     virtual void period_begins(const ControlPeriod &period) = 0;
     /// Legs that follow the PWM from now on. The others have both switches off.
     virtual void legs_change(const std::array<bool, 3> &enabled, double into_period_s) = 0;
+    /// Level of the brake chopper's output, GPIO8, from now on.
+    virtual void chopper_changes(bool on, double into_period_s)
+    {
+        static_cast<void>(on);
+        static_cast<void>(into_period_s);
+    }
     /// Voltage at a converter input, now: side 0 = A, 1 = B.
     virtual double analog_V(int side, int number) = 0;
     /// The encoder, now.

@@ -32,6 +32,7 @@ void DcLink::configure(const InverterSettings &s, double source_V)
     chopper_on_V_   = s.chopper_on_V.value_or(0.0);
     chopper_off_V_  = chopper_on_V_ - s.chopper_hysteresis_V;
     chopping_       = chopping_ && chopper_Ohm_ > 0.0;
+    of_board_       = s.chopper_of_board;
     ripple(0.0);
 }
 
@@ -52,6 +53,14 @@ void DcLink::settle()
     }
 }
 
+void DcLink::command_chopper(bool on)
+{
+    if (of_board_) {
+        commanded_ = true;
+        chopping_  = on;
+    }
+}
+
 void DcLink::advance(double bridge_A, double dt_s)
 {
     if (chopper_Ohm_ > 0.0) {
@@ -68,7 +77,9 @@ void DcLink::chop(double bridge_A, double dt_s)
 {
     double left_s = dt_s;
     while (left_s > 0.0) {
-        chopping_            = v_V_ >= chopper_on_V_ || (chopping_ && v_V_ > chopper_off_V_);
+        if (!commanded_) {
+            chopping_ = v_V_ >= chopper_on_V_ || (chopping_ && v_V_ > chopper_off_V_);
+        }
         const double piece_s = std::min(left_s, chopper_step * chopper_Ohm_ * capacitance_F_);
         const double before  = v_V_;
         double       load_V  = chopping_ ? before : 0.0;
@@ -80,7 +91,8 @@ void DcLink::chop(double bridge_A, double dt_s)
         charge(bridge_A + load_V / chopper_Ohm_, piece_s); // EQ-DC-LINK-2
         const double level_V = chopping_ ? chopper_off_V_ : chopper_on_V_;
         double       used_s  = piece_s;
-        if (chopping_ ? v_V_ < level_V : v_V_ > level_V) { // over a piece a straight line
+        if (!commanded_ &&
+            (chopping_ ? v_V_ < level_V : v_V_ > level_V)) { // over a piece a straight line
             used_s *= (level_V - before) / (v_V_ - before);
             v_V_ = level_V;
         }

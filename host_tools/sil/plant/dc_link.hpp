@@ -7,6 +7,8 @@
 ///
 ///     i_bridge + v / R_chopper in place of i_bridge: on at chopper_on_V, off chopper_hysteresis_V lower   EQ-DC-LINK-2
 ///
+/// The firmware of a board with a chopper switches it instead of these levels.
+///
 /// The source may ripple, by the sine that a rectified mains leaves,
 ///
 ///     v_source + ripple_V sin(2 pi ripple_Hz t), t from the start                                EQ-DC-LINK-3
@@ -27,6 +29,9 @@ public:
     /// Changes in flight; the capacitor keeps its voltage, unless it hangs on a stiff source.
     void configure(const InverterSettings &settings, double source_V);
     void advance(double bridge_A, double dt_s);
+
+    /// From here on the board's firmware switches the chopper, if it is the board's. Until then it switches by its levels.
+    void command_chopper(bool on);
 
     double voltage_V() const
     {
@@ -66,6 +71,8 @@ private:
     double chopper_on_V_   = 0.0;
     double chopper_off_V_  = 0.0;
     bool   chopping_       = false;
+    bool   of_board_       = false; ///< the chopper
+    bool   commanded_      = false; ///< and its firmware switches it
     double chopper_J_      = 0.0;
     double v_V_            = 0.0;
 };

@@ -36,6 +36,19 @@ std::optional<SaturatedMotor> iron_of(const Scenario &s)
     return s.motor_effects.flux ? *s.motor_effects.flux : saturated_motor(s.drive, s.drive.motor);
 }
 
+/// A board with a chopper has it in every simulation.
+InverterSettings with_chopper_of_board(InverterSettings i, const Drive &drive)
+{
+    if (has_chopper(drive)) {
+        const BoardFile &b       = *drive.board.file;
+        i.chopper_of_board       = true;
+        i.chopper_on_V           = b[BOARD_FACT_CHOPPER_ON_V];
+        i.chopper_hysteresis_V   = b[BOARD_FACT_CHOPPER_ON_V] - b[BOARD_FACT_CHOPPER_OFF_V];
+        i.chopper_resistance_Ohm = b[BOARD_FACT_CHOPPER_RESISTANCE_Ohm];
+    }
+    return i;
+}
+
 bool has_drift(const MotorEffects &e)
 {
     return e.resistance_drift != 0.0 || e.flux_drift != 0.0;
@@ -70,8 +83,8 @@ Board::Board(const Scenario &s)
 
 void Board::configure_inverter()
 {
-    const InverterSettings &i         = inverter_;
-    const double            dead_time = dead_time_of(sensors_, i, scenario_.drive);
+    const InverterSettings i         = with_chopper_of_board(inverter_, scenario_.drive);
+    const double           dead_time = dead_time_of(sensors_, i, scenario_.drive);
     bridge_.configure(i, dead_time);
     dc_link_.configure(i, source_V_);
     plain_inverter_ = i.model == InverterModel::averaged && dead_time <= 0.0 &&

@@ -66,6 +66,17 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
+    /// The chopper's output of the board's firmware.
+    void command_chopper(bool on)
+    {
+        dc_link_.command_chopper(on);
+    }
+    /// Heat of the chopper's resistor so far.
+    double chopper_J() const
+    {
+        return dc_link_.chopper_J();
+    }
+
     // Changes by a person during the run.
     /// Beside the scenario's load.
     void set_extra_load_Nm(double torque_Nm)

@@ -78,6 +78,7 @@ void MotorBench::begin_tick()
     if (tick_ == start_tick_) {
         board_ = std::make_unique<Board>(scenario_);
         board_->set_legs(legs_);
+        board_->command_chopper(chopper_);
     }
     const RawSample before = sample_;
     if (board_) {
@@ -109,10 +110,24 @@ void MotorBench::set_legs(const std::array<bool, 3> &enabled, double into_period
         driven_while_held_ = driven_while_held_ || enabled[0] || enabled[1] || enabled[2];
         return;
     }
+    advance_to(into_period_s);
+    board_->set_legs(enabled);
+}
+
+void MotorBench::advance_to(double into_period_s)
+{
     const double until_s = std::clamp(into_period_s, reached_s_, period_s_);
     board_->advance_raw(reached_s_, until_s);
     reached_s_ = until_s;
-    board_->set_legs(enabled);
+}
+
+void MotorBench::set_chopper(bool on, double into_period_s)
+{
+    chopper_ = on;
+    if (board_) {
+        advance_to(into_period_s);
+        board_->command_chopper(on);
+    }
 }
 
 std::int64_t MotorBench::count_after(double into_period_s) const

@@ -29,6 +29,9 @@ public:
     /// Opens or frees legs, this long after the tick.
     void set_legs(const std::array<bool, 3> &enabled, double into_period_s);
 
+    /// The chopper's output, this long after the tick.
+    void set_chopper(bool on, double into_period_s);
+
     /// Number of the present tick; -1 before the first.
     long tick() const
     {
@@ -88,6 +91,7 @@ public:
 private:
     double held_theta_e_rad(long tick) const;
     void   hold();
+    void   advance_to(double into_period_s);
 
     Scenario                 scenario_;
     double                   period_s_;
@@ -98,6 +102,7 @@ private:
     PlantState               plant_state_;
     double                   peak_current_A_ = 0.0;
     std::array<bool, 3>      legs_{};
+    bool                     chopper_           = false;
     double                   reached_s_         = 0.0; ///< how far into the period the plant is
     bool                     driven_while_held_ = false;
     bool                     stuck_             = false;

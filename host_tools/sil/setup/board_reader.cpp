@@ -102,6 +102,10 @@ EncoderDiscSettings read_disc(TomlReader &t, EncoderDiscSettings s)
 
 void read_chopper(TomlReader &t, InverterSettings &s, const Drive &drive)
 {
+    if (t.has("chopper_on_V") && has_chopper(drive)) {
+        t.fail("chopper_on_V",
+               fmt::format("is not allowed: board \"{}\" has a chopper", drive.board.file->name));
+    }
     if (t.has("chopper_on_V")) {
         s.chopper_on_V = t.number("chopper_on_V", dc_link_V);
     }

@@ -67,6 +67,7 @@ struct InverterSettings {
     std::optional<double> chopper_on_V;                       ///< none: no brake chopper
     double                chopper_hysteresis_V = 5.0; ///< chosen: some 4 us of delay would be 0.1 V
     double                chopper_resistance_Ohm = 100.0; ///< chosen: 1.4 kW at 380 V
+    bool                  chopper_of_board       = false; ///< the firmware switches it
     double                ripple_V               = 0.0;   ///< amplitude of a sine in the source
     double                ripple_Hz = 300.0; ///< of three phases of 50 Hz and six diodes
 };

@@ -3,6 +3,7 @@
 
 #include "app.h"
 #include "app_control.h"
+#include "app_line.h"
 #include "app_registers.h"
 
 #include <math.h>
@@ -102,6 +103,78 @@ static void go_run(void)
     both(3);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
     TEST_ASSERT_TRUE(fake_board.gate);
+}
+
+/* 385 V and 375 V at 450 V of range. */
+static void with_chopper(void)
+{
+    const app_chopper_config_t chopper = {
+        .on_cnt = 3504U, .off_cnt = 3413U, .per_V2 = 2.0e-4f, .tau_s = 2.0f};
+
+    config.board.chopper = 1U;
+    config.chopper       = chopper;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &speed_tables_drive));
+}
+
+static void test_chopper_follows_the_link_in_every_mode(void)
+{
+    with_chopper();
+    both(2); /* BOOT */
+    TEST_ASSERT_EQUAL_INT(0, fake_board.chopper_writes);
+    for (int n = 0; n < 3; n++) {
+        const uint16_t rest           = fake_board.sample.dc_link_cnt;
+        fake_board.sample.dc_link_cnt = 3505U;
+        both(1);
+        TEST_ASSERT_TRUE(fake_board.chopper);
+        const int before = fake_board.chopper_writes;
+        both(3); /* each period, or the pin goes low */
+        TEST_ASSERT_EQUAL_INT(before + 3, fake_board.chopper_writes);
+        TEST_ASSERT_EQUAL_INT(APP_CHOPPER_ON, app_status_read().chopper);
+        fake_board.sample.valid = false;
+        both(1);
+        TEST_ASSERT_FALSE(fake_board.chopper);
+        fake_board.sample.valid = true;
+        both(1);
+        TEST_ASSERT_TRUE(fake_board.chopper);
+        fake_board.sample.dc_link_cnt = 3413U;
+        both(1);
+        TEST_ASSERT_FALSE(fake_board.chopper);
+        const int after               = fake_board.chopper_writes;
+        fake_board.sample.dc_link_cnt = rest;
+        both(50);
+        TEST_ASSERT_EQUAL_INT(after, fake_board.chopper_writes);
+        TEST_ASSERT_EQUAL_INT(APP_CHOPPER_OFF, app_status_read().chopper);
+        if (n == 0) {
+            both(READY_TICKS);
+            TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+        } else {
+            fake_board_fail(BOARD_FAULT_TRIP); /* FAULT, or READY with the input active */
+            both(5);
+        }
+    }
+}
+
+static void test_a_hot_chopper_is_a_condition(void)
+{
+    with_chopper();
+    both(READY_TICKS);
+    fake_board.sample.dc_link_cnt = 3600U;
+    both(500); /* 65 ms to the rated heat */
+    TEST_ASSERT_FALSE(fake_board.chopper);
+    TEST_ASSERT_EQUAL_INT(APP_CHOPPER_HOT, app_status_read().chopper);
+    TEST_ASSERT_TRUE((app_registers_conditions(&app_line.registers) & 16384U) != 0U);
+    TEST_ASSERT_TRUE((app_registers_statusword(&app_line.registers) & 128U) != 0U);
+}
+
+static void test_refused_constants_keep_the_chopper_off(void)
+{
+    with_chopper();
+    config.chopper.off_cnt = config.chopper.on_cnt;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &speed_tables_drive));
+    fake_board.sample.dc_link_cnt = 4000U;
+    both(100);
+    TEST_ASSERT_EQUAL_INT(0, fake_board.chopper_writes);
+    TEST_ASSERT_EQUAL_INT(APP_CHOPPER_NONE, app_status_read().chopper);
 }
 
 static void test_gates_are_enabled_once_and_after_everything_else(void)
@@ -827,6 +900,9 @@ static void test_index_after_alignment_takes_over_on_the_run(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_chopper_follows_the_link_in_every_mode);
+    RUN_TEST(test_a_hot_chopper_is_a_condition);
+    RUN_TEST(test_refused_constants_keep_the_chopper_off);
     RUN_TEST(test_gates_are_enabled_once_and_after_everything_else);
     RUN_TEST(test_gates_are_off_before_the_duty_changes);
     RUN_TEST(test_board_fault_opens_the_bridge_and_enabling_clears_it);

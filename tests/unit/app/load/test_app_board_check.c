@@ -192,10 +192,38 @@ static void test_limits_beyond_the_board_are_named(void)
     expect(BOARD_FACT_INVERTER_TIME_CONSTANT_s);
 }
 
+static void test_a_chopper_follows_from_its_facts(void)
+{
+    const float                facts[] = {385.0f, 375.0f, 100.0f, 50.0f, 20.0f};
+    const app_chopper_config_t good    = {
+           .on_cnt = 3504U, .off_cnt = 3413U, .per_V2 = 2.0e-4f, .tau_s = 20.0f};
+
+    app.board.chopper = 1U;
+    app.chopper       = good;
+    expect(BOARD_FACT_CHOPPER_ON_V); /* the board has none */
+    setUp();
+    for (uint16_t n = 0U; n < 5U; n++) {
+        board.fact[(uint16_t)BOARD_FACT_CHOPPER_ON_V + n] = facts[n];
+    }
+    const board_identity_t with = board;
+    expect(BOARD_FACT_CHOPPER_ON_V); /* the image has none */
+    app.board.chopper = 1U;
+    app.chopper       = good;
+    TEST_ASSERT_EQUAL_UINT16(BOARD_FIELD_NONE, field());
+    for (uint16_t n = 0U; n < 5U; n++) {
+        board                         = with;
+        const uint16_t fact           = (uint16_t)((uint16_t)BOARD_FACT_CHOPPER_ON_V + n);
+        const bool     in_the_product = fact == (uint16_t)BOARD_FACT_CHOPPER_RESISTANCE_Ohm;
+        board.fact[fact] *= 1.01f;
+        expect(in_the_product ? BOARD_FACT_CHOPPER_POWER_W : (board_fact_t)fact);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_shipped_constants_are_of_their_board);
+    RUN_TEST(test_a_chopper_follows_from_its_facts);
     RUN_TEST(test_every_fact_of_the_board_is_compared_with_the_constants);
     RUN_TEST(test_a_shorter_dead_time_is_refused_wherever_it_stands);
     RUN_TEST(test_another_scale_is_named);
