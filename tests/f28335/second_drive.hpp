@@ -19,7 +19,7 @@ namespace sdre {
 
 class SecondDrive {
 public:
-    /// What a period brings to it, or from it.
+    /// A period brings this to it, or from it.
     struct Parcel {
         int                              frames = 0;
         std::array<f28335::CanFrame, 16> frame{};

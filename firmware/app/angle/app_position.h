@@ -20,7 +20,7 @@
 /** Limit of a target position, in either direction [counts]. */
 #define APP_POSITION_CNT_MAX 1000000000L
 
-/** Electrical turns at which homing may set the zero, either way: a target from there still counts. */
+/** Largest zero that homing may set, in electrical turns: a target from there still counts. */
 #define APP_POSITION_ZERO_TURNS (POSITION_TURNS_MAX / 2L)
 
 typedef struct {

@@ -100,8 +100,8 @@ static uint16_t bit_if(bool x, int bit)
 /* True if the reference rests at the target and the shaft is near it. */
 static bool is_at_target(const app_registers_t *r)
 {
-    const app_position_t *p       = &r->status.position;
-    const int32_t         off_cnt = app_position_cnt(p, &p->actual) - r->status.target_cnt;
+    const app_position_t *p        = &r->status.position;
+    const int32_t         off_cnt  = app_position_cnt(p, &p->actual) - r->status.target_cnt;
     const int32_t         most_cnt = (int32_t)r->requested.window_cnt;
 
     return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
