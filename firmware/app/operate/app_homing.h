@@ -3,12 +3,12 @@
  * @file app_homing.h
  * @brief Homing by CiA 402: finds a switch or the index mark, and makes it the zero of positions.
  *
- *     FIND   towards the switch, until it is active; a limit switch in the way reverses methods
- *            7 to 14 once
- *     LEAVE  off the switch, to the side from which it is passed
- *     RETURN onto it again, for methods that pass it from its active side
- *     PASS   slowly over the edge of the switch: home, or
- *     INDEX  on to the next index mark: home
+ * - FIND goes to the switch until it is active. A limit switch in the way reverses methods 7 to 14
+ *   once.
+ * - LEAVE goes off the switch, to the side from which it is passed.
+ * - RETURN goes onto it again, for methods that pass it from its active side.
+ * - PASS goes slowly over the edge of the switch.
+ * - INDEX goes on to the next index mark, for methods with one.
  *
  * FIND and LEAVE have the speed for the switch, the others that for the zero. A method names
  * the edge, its side and the direction. Directions and limit switches are those of the operator,
@@ -38,7 +38,7 @@ typedef enum {
     APP_HOMING_FAILED /**< no such input, a limit switch in the way, or the time is over */
 } app_homing_stage_t;
 
-/** What it sees. */
+/** It sees these. */
 typedef struct {
     const app_position_t *position;
     const app_angle_t    *angle;
