@@ -305,12 +305,28 @@ TEST_F(F28335Board, PinRegisters)
     EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x7FU);
     // Pull-ups off: reset value 0xFFF, and pin 12, which the board pulls down.
     EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
-    // TZ1 asynchronous 3; encoder six samples 2; both receivers asynchronous 3.
+    // TZ1 asynchronous 3; encoder and home switch on 26 six samples 2; both receivers asynchronous 3.
     EXPECT_EQ(GpioCtrlRegs.GPAQSEL1.all, 3UL << 24);
     EXPECT_EQ(GpioCtrlRegs.GPAQSEL2.all,
-              (2UL << 8) | (2UL << 10) | (2UL << 14) | (3UL << 24) | (3UL << 28));
-    EXPECT_EQ(GpioCtrlRegs.GPACTRL.all, 2UL << 16);
+              (2UL << 8) | (2UL << 10) | (2UL << 14) | (2UL << 20) | (3UL << 24) | (3UL << 28));
+    // Encoder every 4 cycles; switches every 510.
+    EXPECT_EQ(GpioCtrlRegs.GPACTRL.all, (2UL << 16) | (0xFFUL << 24));
+    // Limit switches on 32 and 33, with their pull-ups.
+    EXPECT_EQ(GpioCtrlRegs.GPBQSEL1.all, (2UL << 0) | (2UL << 2));
+    EXPECT_EQ(GpioCtrlRegs.GPBCTRL.all, 0xFFUL);
+    EXPECT_EQ(GpioCtrlRegs.GPBPUD.all, 0U);
     EXPECT_EQ(GpioCtrlRegs.GPBMUX1.all | GpioCtrlRegs.GPBMUX2.all | GpioCtrlRegs.GPBDIR.all, 0U);
+}
+
+TEST_F(F28335Board, InputsAreTheLevelsOfTheSwitches)
+{
+    Device &d = start();
+    for (unsigned n = 0; n < 8; n++) {
+        d.set_input(32, (n & BOARD_INPUT_NEGATIVE) != 0);
+        d.set_input(33, (n & BOARD_INPUT_POSITIVE) != 0);
+        d.set_input(26, (n & BOARD_INPUT_HOME) != 0);
+        EXPECT_EQ(board_inputs(), n);
+    }
 }
 
 TEST_F(F28335Board, SerialRegisters)

@@ -11,7 +11,7 @@
 
 #define ROOM 8192U
 
-#define PADDING 7U /* on a machine of 64 bits; half of an enumeration among them */
+#define PADDING 8U /* on a machine of 64 bits; half of an enumeration among them */
 
 static drive_image_t image;
 static drive_image_t back;
