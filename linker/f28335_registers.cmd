@@ -12,6 +12,7 @@ ECanaMboxes   = 0x006100;
 EPwm1Regs     = 0x006800;
 EPwm2Regs     = 0x006840;
 EPwm3Regs     = 0x006880;
+EPwm5Regs     = 0x006900;
 EQep1Regs     = 0x006B00;
 GpioCtrlRegs  = 0x006F80;
 GpioDataRegs  = 0x006FC0;

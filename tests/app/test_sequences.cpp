@@ -48,7 +48,7 @@ constexpr int holding_scope        = 96;
 constexpr int input_status         = 0;
 constexpr int input_scope_state    = 192;
 constexpr int input_samples        = 16384;
-constexpr int scope_signals        = 20;
+constexpr int scope_signals        = 21;
 
 enum class State { not_ready, disabled, ready, switched, enabled, quick_stop, reaction, fault };
 

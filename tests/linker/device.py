@@ -42,6 +42,7 @@ PERIPHERALS = {
     "EPwm1Regs": 0x6800,
     "EPwm2Regs": 0x6840,
     "EPwm3Regs": 0x6880,
+    "EPwm5Regs": 0x6900,
     "EQep1Regs": 0x6B00,
     "GpioCtrlRegs": 0x6F80,
     "GpioDataRegs": 0x6FC0,
