@@ -209,9 +209,10 @@ static void any_registers(void)
     s->homing              = any_between(APP_HOMING_IDLE, APP_HOMING_FAILED);
     s->position.pole_pairs = (uint16_t)any_between(1, 64);
     s->position.positions  = board_config.board.positions;
-    registers.requested.objects   = any_objects;
-    registers.requested.scale.num = (uint32_t)any_long_between(1, 2147483647L);
-    registers.requested.scale.den = (uint32_t)any_long_between(1, 2147483647L);
+    registers.requested.objects        = any_objects;
+    registers.requested.scale.reversed = any_bool();
+    registers.requested.scale.num      = (uint32_t)any_long_between(1, 2147483647L);
+    registers.requested.scale.den      = (uint32_t)any_long_between(1, 2147483647L);
 }
 
 /* Entry: the record is taken, asked for and written, whatever flash and kept words hold. */

@@ -24,25 +24,28 @@ static uint64_t divisor_of(uint64_t a, uint64_t b)
         large = small;
         small = rest;
     }
-    return large;
+    return (large > 0U) ? large : 1U;
 }
 
 bool app_units_reduce(const app_units_t *u, uint16_t positions, app_units_scale_t *scale)
 {
-    const uint64_t feed  = (u->feed > 0U) ? u->feed : positions;
-    const uint64_t num   = (uint64_t)positions * u->gear_motor * u->feed_shaft; /* below 2^48 */
-    const uint64_t den   = feed * u->gear_shaft;
-    const bool     some  = (num > 0U) && (den > 0U) && (u->feed <= APP_UNITS_FEED_MAX);
-    const uint64_t by    = some ? divisor_of(num, den) : 1U;
-    const uint64_t most  = (uint64_t)MOST_I32;
-    const bool     holds = some && ((num / by) <= most) && ((den / by) <= most);
+    const uint64_t feed = (u->feed > 0U) ? u->feed : positions;
+    const uint64_t up   = (uint64_t)positions * u->gear_motor * u->feed_shaft; /* below 2^48 */
+    const uint64_t down = feed * u->gear_shaft;
+    const bool     some = (up > 0U) && (down > 0U) && (u->feed <= APP_UNITS_FEED_MAX);
+    const uint64_t by   = divisor_of(up, down);
+    const uint64_t num  = up / by;
+    const uint64_t den  = down / by;
+    const uint64_t most = (uint64_t)MOST_I32;
+    bool           ok   = false;
 
-    if (holds) {
-        scale->num      = (uint32_t)(num / by);
-        scale->den      = (uint32_t)(den / by);
+    if (some && (num > 0U) && (num <= most) && (den > 0U) && (den <= most)) {
+        scale->num      = (uint32_t)num;
+        scale->den      = (uint32_t)den;
         scale->reversed = (u->polarity & APP_UNITS_REVERSES_POSITION) != 0U;
+        ok              = true;
     }
-    return holds;
+    return ok;
 }
 
 /* x num / den, rounded to the nearest and limited. Both factors are below 2^31. */
