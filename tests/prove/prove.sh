@@ -32,7 +32,7 @@ apart[prove_canopen]=app_canopen_node_listen:40,app_canopen_dictionary_read:40,f
 apart[prove_canopen_pdo]=app_canopen_pdo_act:40
 apart[prove_store]=use:1
 apart[prove_refused]=${apart[prove_init]}
-apart[prove_parameters]=app_registers_saved_take:2000,app_registers_saved_read:600,read_map:600,store_newest:20,\
+apart[prove_parameters]=app_registers_saved_take:300,app_registers_saved_read:300,read_map:400,store_newest:20,\
 accept:50,app_image_accept:50,take_record:20,app_parameters_take:50
 apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read_part:50,drive_image_fields:50,app_image_take:50,commit:50,\
 app_loader_work:20,app_loader_write:50,put_board:100
