@@ -21,6 +21,8 @@ constexpr double cycles_per_cnt = 2.0 * CLOCK_SYSCLK_PER_TBCLK; // up and down
 constexpr double most_cycles    = 65535.0; // of a PWM period: the capture timer's run, board.c
 // Half a count of these is the 0.1 % by which a frequency may differ.
 constexpr double least_full_cnt = 500.0;
+// Measured with a chopper in host_stub's constants: what the default drive's period takes more, at the band's upper end.
+constexpr double chopper_cycles = 193.0;
 double           law_cycles(const Drive &d)
 {
     switch (d.law) {
@@ -42,7 +44,8 @@ double least_cycles(const Drive &d)
 {
     const double more =
         std::max(d.position ? cycle_budget::position : 0.0, d.torque ? cycle_budget::torque : 0.0);
-    return (law_cycles(d) + more) / (1.0 - cycle_budget::background_share);
+    const double chopper = has_chopper(d) ? chopper_cycles : 0.0;
+    return (law_cycles(d) + more + chopper) / (1.0 - cycle_budget::background_share);
 }
 
 /// The section that takes the most cycles.

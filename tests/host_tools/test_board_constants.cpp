@@ -9,6 +9,7 @@
 #include "design/board/identity.hpp"
 #include "design/design.hpp"
 #include "design/trip_levels.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "temp_dir.hpp"
 
 extern "C" {
@@ -238,6 +239,14 @@ TEST(BoardConstants, ChopperInCodes)
     Drive d                                      = with_chopper();
     d.board.file->facts[BOARD_FACT_CHOPPER_ON_V] = 399.0;
     EXPECT_NE(refusal(d).find("below 398.25, the trip"), std::string::npos) << refusal(d);
+}
+
+// 193 cycles of each period, over 1 - 0.32 / 3.
+TEST(BoardConstants, ChopperTakesCyclesOfThePeriod)
+{
+    const double without = pwm_full_cnt_range(shipped()).least;
+    const double with    = pwm_full_cnt_range(with_chopper()).least;
+    EXPECT_NEAR(4.0 * (with - without), 216.0, 4.1);
 }
 
 // The law may feed back as much as it likes until the chopper is on, and nothing halfway to the trip.

@@ -7,8 +7,8 @@
 
 #define TURNS_PER_TAU_MIN 2.0f /* the model is a difference equation */
 
-static bool values_ok(const app_chopper_config_t *c, float dc_link_V_per_cnt, float dc_link_max_V,
-                      float turn_s)
+static bool chopper_ok(const app_chopper_config_t *c, float dc_link_V_per_cnt, float dc_link_max_V,
+                       float turn_s)
 {
     return (c->off_cnt > 0U) && (c->off_cnt < c->on_cnt) &&
            (((float)c->on_cnt * dc_link_V_per_cnt) < dc_link_max_V) && check_positive(c->per_V2) &&
@@ -18,7 +18,7 @@ static bool values_ok(const app_chopper_config_t *c, float dc_link_V_per_cnt, fl
 ctl_status_t app_chopper_check(const app_chopper_config_t *c, bool wanted, float dc_link_V_per_cnt,
                                float dc_link_max_V, float turn_s)
 {
-    const bool ok = wanted ? values_ok(c, dc_link_V_per_cnt, dc_link_max_V, turn_s)
+    const bool ok = wanted ? chopper_ok(c, dc_link_V_per_cnt, dc_link_max_V, turn_s)
                            : ((c->on_cnt == 0U) && (c->off_cnt == 0U));
 
     return ok ? CTL_OK : CTL_BAD_CONFIG;
