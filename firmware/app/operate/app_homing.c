@@ -115,9 +115,8 @@ static int16_t direction(const app_homing_t *h, const app_objects_t *o)
         goes = (o->homing_method == INDEX_ON) ? FORWARD : BACK;
     } else if (h->stage == APP_HOMING_FIND) {
         goes = h->reversed ? (int16_t)-w->first : w->first;
-    } else if ((h->stage == APP_HOMING_LEAVE) && !w->from_active) {
-        goes = (int16_t)-w->passes;
-    } else if (h->stage == APP_HOMING_RETURN) {
+    } else if ((h->stage == APP_HOMING_RETURN) ||
+               ((h->stage == APP_HOMING_LEAVE) && !w->from_active)) {
         goes = (int16_t)-w->passes;
     } else {
         /* as it passes */
