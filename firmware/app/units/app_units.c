@@ -54,7 +54,8 @@ static int32_t scaled(int32_t x, uint32_t num, uint32_t den, bool reversed)
     const int64_t product = (int64_t)x * (int64_t)num;
     const int64_t half    = (int64_t)(den / 2U);
     const int64_t by      = (int64_t)den;
-    const int64_t rounded = ((product < 0) ? (product - half) : (product + half)) / by;
+    const int64_t beyond  = (product < 0) ? (product - half) : (product + half);
+    const int64_t rounded = (by == 1) ? beyond : (beyond / by); /* counts need no division */
     const int64_t way     = reversed ? -rounded : rounded;
     const int64_t up      = (way > MOST_I32) ? MOST_I32 : way;
 
