@@ -7,8 +7,7 @@
  *
  * The zero is the count at which the angle was found, by the index mark or by alignment. It is
  * known while the angle is referenced. Homing replaces it, app_homing.h. Whole turns are counted in
- * integers:
- * the resolution stays one count after any number of turns.
+ * integers: the resolution stays one count after any number of turns.
  */
 #ifndef APP_POSITION_H
 #define APP_POSITION_H

@@ -28,8 +28,7 @@ static void set_limits(app_control_t *c, const app_objects_t *o, const app_contr
 static void take_point(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
 {
     app_path_aim_t *a     = &c->path.aim;
-    const int32_t   asked = app_position_held(app_position_held(o->target_cnt) +
-                                              app_position_held(o->offset_cnt)); /* 2e9 at most */
+    const int32_t   asked = app_control_asked_cnt(o);
     const int32_t   count = app_control_limited_cnt(o, asked);
 
     c->velocity            = c->velocity || !base_within(o->omega_offset_e_radps, 0.0f);

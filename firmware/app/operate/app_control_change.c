@@ -281,7 +281,6 @@ static float wanted_way(const app_control_t *c, const app_objects_t *o,
                         const app_control_seen_t *seen)
 {
     const int32_t now_cnt = app_position_cnt(seen->position, &seen->position->actual);
-    const int32_t sum_cnt = app_position_held(o->target_cnt) + app_position_held(o->offset_cnt);
     float         way     = app_control_target_e_radps(o, c->mode);
 
     if (app_control_is_torque(c->mode)) {
@@ -289,7 +288,7 @@ static float wanted_way(const app_control_t *c, const app_objects_t *o,
     } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
         way = c->holds ? far_of(c->setpoint.now.target_cnt - now_cnt) : 0.0f;
     } else if (c->mode == APP_CONTROL_CYCLIC_POSITION) {
-        way = far_of(app_position_held(sum_cnt) - now_cnt);
+        way = far_of(app_control_asked_cnt(o) - now_cnt);
     } else {
         /* a speed */
     }

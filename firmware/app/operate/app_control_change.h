@@ -38,6 +38,13 @@ static inline bool app_control_stays_quick(const app_objects_t *o)
     return o->quick_option >= APP_CONTROL_QUICK_RAMP_STAY;
 }
 
+/** Count that cyclic position is asked for, before the limits of position. */
+static inline int32_t app_control_asked_cnt(const app_objects_t *o)
+{
+    return app_position_held(app_position_held(o->target_cnt) +
+                             app_position_held(o->offset_cnt)); /* 2e9 at most */
+}
+
 /** Changes the state: application modes have priority over the requests. */
 void app_control_change(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                         app_control_ask_t ask);

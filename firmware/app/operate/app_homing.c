@@ -124,6 +124,12 @@ static int16_t direction(const app_homing_t *h, const app_objects_t *o)
     return goes;
 }
 
+/* True if the motor turns backward in this stage. */
+static bool goes_back(const app_homing_t *h, const app_objects_t *o)
+{
+    return (direction(h, o) < 0) != o->reversed;
+}
+
 /* True if the shaft has passed the mark in this direction since the previous call. The first mark
  * after an alignment is one that has just been passed. */
 static bool passes_mark(app_homing_t *h, const app_angle_t *a, bool back)
@@ -144,9 +150,7 @@ static bool passes_mark(app_homing_t *h, const app_angle_t *a, bool back)
 
 static void search_mark(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
 {
-    const bool back = (direction(h, o) < 0) != o->reversed;
-
-    if (passes_mark(h, seen->angle, back)) {
+    if (passes_mark(h, seen->angle, goes_back(h, o))) {
         const int32_t here_cnt = app_position_cnt(seen->position, &seen->position->actual);
 
         attain(h, o, seen->position, here_cnt - (int32_t)h->off_cnt);
@@ -223,10 +227,9 @@ float app_homing_tick(app_homing_t *h, const app_objects_t *o, const app_homing_
     }
     if (app_homing_moves(h->stage)) {
         const bool fast = (h->stage == APP_HOMING_FIND) || (h->stage == APP_HOMING_LEAVE);
-        const bool back = (direction(h, o) < 0) != o->reversed;
 
         speed = fast ? o->homing_switch_e_radps : o->homing_zero_e_radps;
-        speed = back ? -speed : speed;
+        speed = goes_back(h, o) ? -speed : speed;
     }
     return speed;
 }
