@@ -21,8 +21,7 @@
 #define APP_UNITS_REVERSES_SPEED    0x40U
 #define APP_UNITS_REVERSES_TORQUE   0x20U
 
-/** Largest whole number of a gear, and of a feed. */
-#define APP_UNITS_GEAR_MAX 65535U
+/** Largest feed. */
 #define APP_UNITS_FEED_MAX 1000000000UL
 
 typedef struct {
