@@ -192,11 +192,26 @@ static const uint16_t *stored_of(uint16_t digest, const uint16_t *words, uint16_
     return found;
 }
 
+/* Stored parameters that this firmware has. */
+static uint16_t known_of(const uint16_t *words, uint16_t count)
+{
+    uint16_t known = 0U;
+
+    for (uint16_t k = 0U; k < APP_REGISTERS_MAP_HOLDING; k++) {
+        const uint16_t digest = app_registers_map_holding[k].saved;
+
+        if ((digest != 0U) && (stored_of(digest, words, count) != NULL)) {
+            known = (uint16_t)(known + 1U);
+        }
+    }
+    return known;
+}
+
 bool app_registers_saved_take(app_registers_t *r, const uint16_t *words, uint16_t count,
                               uint16_t *unknown)
 {
-    uint16_t known = 0U;
-    bool     ok    = true;
+    const uint16_t known = known_of(words, count);
+    bool           ok    = true;
 
     r->trial = r->requested;
     for (uint16_t k = 0U; k < APP_REGISTERS_MAP_HOLDING; k++) {
@@ -207,8 +222,7 @@ bool app_registers_saved_take(app_registers_t *r, const uint16_t *words, uint16_
             const uint16_t first =
                 (uint16_t)(APP_REGISTERS_SAVED_EACH - app_registers_count_words(e));
 
-            ok    = (try_one(r, e, &stored[first]) == APP_REGISTERS_OK) && ok;
-            known = (uint16_t)(known + 1U);
+            ok = (try_one(r, e, &stored[first]) == APP_REGISTERS_OK) && ok;
         }
     }
     *unknown = (known < count) ? (uint16_t)(count - known) : 0U;
