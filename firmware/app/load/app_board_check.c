@@ -143,6 +143,12 @@ static void check_level(check_t *c, board_fact_t fact, uint16_t level_cnt)
     note(c, fact, image_V, base_in_range(image_V, board_V - per_cnt_V, board_V + per_cnt_V));
 }
 
+/* An image for a board without chopper has no resistor to divide by. */
+static float resistor_W(const app_chopper_config_t *chopper, float r_Ohm)
+{
+    return (chopper->per_V2 > 0.0f) ? (1.0f / (chopper->per_V2 * r_Ohm)) : 0.0f;
+}
+
 static void check_chopper(check_t *c)
 {
     const app_chopper_config_t *r     = &c->app->chopper;
@@ -154,7 +160,7 @@ static void check_chopper(check_t *c)
     if (there) {
         check_level(c, BOARD_FACT_CHOPPER_ON_V, r->on_cnt);
         check_level(c, BOARD_FACT_CHOPPER_OFF_V, r->off_cnt);
-        must_be(c, BOARD_FACT_CHOPPER_POWER_W, 1.0f / (r->per_V2 * r_Ohm));
+        must_be(c, BOARD_FACT_CHOPPER_POWER_W, resistor_W(r, r_Ohm));
         must_be(c, BOARD_FACT_CHOPPER_TIME_CONSTANT_s, r->tau_s);
     } else {
         must_be(c, BOARD_FACT_CHOPPER_OFF_V, 0.0f);
