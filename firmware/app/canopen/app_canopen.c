@@ -116,7 +116,6 @@ static void hear_frame(app_canopen_t *c, app_registers_t *r, const board_can_fra
     const bool operational = c->state == APP_CANOPEN_OPERATIONAL;
     const bool talks       = operational || (c->state == APP_CANOPEN_PRE_OPERATIONAL);
 
-    c->heard_ticks = now_ticks;
     if (frame->id == APP_CANOPEN_ID_NMT) {
         take_nmt(c, r, frame, now_ticks);
     } else if (frame->id == APP_CANOPEN_ID_SYNC) {
@@ -125,6 +124,7 @@ static void hear_frame(app_canopen_t *c, app_registers_t *r, const board_can_fra
         }
     } else if (frame->id == (APP_CANOPEN_ID_REQUEST + c->node)) {
         if (talks) {
+            c->asked_ticks = now_ticks;
             app_canopen_sdo_take(c, r, frame);
         }
     } else if (frame->id >= APP_CANOPEN_ID_HEARTBEAT) {
@@ -256,5 +256,5 @@ void app_canopen_poll(app_canopen_t *c, app_registers_t *r, uint32_t now_ticks)
 
 bool app_canopen_is_quiet(const app_canopen_t *c, uint32_t now_ticks)
 {
-    return !c->sdo.answers && app_canopen_node_passed(c, c->heard_ticks, now_ticks, QUIET_ms);
+    return !c->sdo.answers && app_canopen_node_passed(c, c->asked_ticks, now_ticks, QUIET_ms);
 }

@@ -80,7 +80,7 @@ typedef struct {
     uint16_t                rate_kbps;
     float                   ticks_per_ms;
     bool                    restart;      /**< of the whole drive, as soon as the bridge is off */
-    uint32_t                heard_ticks;  /**< last frame */
+    uint32_t                asked_ticks;  /**< last request */
     uint16_t                bus;          /**< BOARD_CAN_ bits of the last pass */
     uint16_t                heartbeat_ms; /**< 1017h; 0: none */
     uint32_t                heartbeat_ticks; /**< sent */

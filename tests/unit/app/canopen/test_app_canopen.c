@@ -319,6 +319,21 @@ static void test_quiet_means_no_answer_waits(void)
     TEST_ASSERT_EQUAL_INT(1, bench_count(0x580 + BENCH_NODE));
 }
 
+/* A bus under way is no reason to wait: parameters are stored, and images loaded, beside its SYNC. */
+static void test_quiet_means_no_request_for_a_while(void)
+{
+    const int request[] = {0x40, 0x00, 0x10, 0, 0, 0, 0, 0};
+
+    bench_run_ms(50.0);
+    bench_send(0x600 + BENCH_NODE, 8, request);
+    const uint32_t asked = now;
+    for (int n = 0; n < 30; n++) {
+        bench_send(0x80, 0, request);
+        bench_run_ms(1.0);
+        TEST_ASSERT_EQUAL_INT((now - asked) >= 100U, app_canopen_is_quiet(&node, now)); /* 20 ms */
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -339,5 +354,6 @@ int main(void)
     RUN_TEST(test_many_faults_on_a_bus_without_room_keep_their_order);
     RUN_TEST(test_a_sender_that_ceased_is_started_again);
     RUN_TEST(test_quiet_means_no_answer_waits);
+    RUN_TEST(test_quiet_means_no_request_for_a_while);
     return UNITY_END();
 }
