@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "design/board/identity.hpp"
-#include "design/design.hpp"
-#include "emit/emit_image.hpp"
-#include "served_client.hpp"
+#include "loaded_image.hpp"
 #include "sweep.hpp"
 
 extern "C" {
@@ -28,15 +26,6 @@ namespace {
 
 constexpr double      erased_s        = 2.1; // a sector: 2 s
 constexpr std::size_t first_fact_word = 42;  // drive_image.h
-
-/// The same motor, faster or slower: an image that can be told from the compiled constants.
-Words image(double speed_max_e_radps, const std::string &name)
-{
-    Drive drive                   = shipped_drive();
-    drive.name                    = name;
-    drive.motor.max_speed_e_radps = speed_max_e_radps;
-    return image_words(design_drive(drive, Precision::quick));
-}
 
 /// The words of an image whose board has another fact; the constants are this board's.
 Words with_fact(const Words &words, std::size_t fact, float value)

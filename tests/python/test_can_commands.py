@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import subprocess
 import threading
+from pathlib import Path
 from typing import Iterator
 
 import pytest
 from can_support import Bus, Command, in_process, on_both, watch_nothing, watched
-from conftest import ROOT
+from conftest import ROOT, SHIPPED
 from support import run_at
 
 from sdre_drive import faults, params, scope, session
@@ -17,6 +19,9 @@ from sdre_drive.options import target, use_can
 
 pytest.importorskip("canopen")
 pytest.importorskip("can")
+
+
+GAINS = ROOT / "build/host/bin/sdre-gains"
 
 
 @pytest.fixture(scope="module")
@@ -92,12 +97,25 @@ def test_a_session_that_has_stopped_leaves_no_watch(command: Command, bus: Bus) 
         assert watched(drive) == 0 and not drive.read().conditions & 2
 
 
+def test_an_image_is_loaded_and_forgotten(command: Command, bus: Bus, tmp_path: Path) -> None:
+    image = tmp_path / "own.image"
+    text = SHIPPED.read_text().replace('name = "ipmsm_390w"', 'name = "my_motor"')
+    (tmp_path / "own.toml").write_text(text)
+    made = [str(GAINS), "image", str(tmp_path / "own.toml"), "--out", str(image)]
+    subprocess.run(made, check=True, capture_output=True)
+    before = command(*bus.options(), "load")
+    assert "compiled in: ipmsm_390w" in before.out, before
+    done = command(*bus.options(), "load", str(image))
+    assert done.code == 0 and "image 1: my_motor" in done.out, done
+    back = command(*bus.options(), "load", "--forget")
+    assert back.code == 0 and "compiled in: ipmsm_390w" in back.out, back
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["--can", "{bus}", "--node", "9", "status"], "nothing answers as node 9"),
         (["status", "--can", "{bus}"], "--can stands before the command"),
-        (["--can", "{bus}", "load", "--forget"], "the loader answers over Modbus alone"),
     ],
 )
 def test_what_is_wrong_is_one_line(command: Command, bus: Bus, words: list[str], said: str) -> None:

@@ -105,7 +105,7 @@ def test_a_lost_answer_is_made_good(
 
     def write(self: Drive, first: int, values: list) -> None:
         whole(self, first, values)
-        if first == loader.OFFSET and values[1] == 300 and not lost:
+        if first == loader.OFFSET and values[1] == 5 * loader.PER_REQUEST and not lost:
             lost.append(first)
             raise DriveError("no answer")
 

@@ -61,7 +61,7 @@ uint32_t app_canopen_block_write(const app_canopen_t *c, app_registers_t *r, uin
 {
     uint32_t result;
 
-    if ((sub != HOLDINGS) || (first_of(c) >= APP_LOADER_FIRST)) {
+    if (sub != HOLDINGS) {
         result = APP_CANOPEN_READ_ONLY;
     } else if ((octets == 0U) || ((octets & 1U) != 0U)) {
         result = APP_CANOPEN_LENGTH;

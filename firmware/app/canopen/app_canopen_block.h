@@ -35,8 +35,7 @@ uint32_t app_canopen_block_selected(const app_canopen_t *c, uint16_t sub, uint32
 uint32_t app_canopen_block_read(const app_canopen_t *c, const app_registers_t *r, uint16_t sub,
                                 uint16_t *words, uint16_t *octets);
 
-/** Writes holding registers from the selected one on. Those of the loader cannot be written.
- * @return an abort code. */
+/** Writes holding registers from the selected one on. @return an abort code. */
 uint32_t app_canopen_block_write(const app_canopen_t *c, app_registers_t *r, uint16_t sub,
                                  const uint16_t *words, uint16_t octets);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_loader.h
- * @brief Writes an image of constants into the board's store over Modbus (docs/loading.md).
+ * @brief Writes an image of constants into the board's store, over Modbus or CAN
+ * (docs/loading.md).
  *
  * Flash cannot be read while it is written, and an erasure takes seconds. Therefore the loader runs
  * alone, without control interrupt and watchdog. A reset with the bridge off starts it, and another

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs the loader instead of the application: Modbus only. Time comes from the cycle count, as
+/* Runs the loader instead of the application, with both buses. Time comes from the cycle count, as
  * there are no ticks. */
 #include "app_loader.h"
 
@@ -27,8 +27,10 @@ void app_loader_start(app_image_t *image)
     (void)app_modbus_init(&app_line.modbus, side.config.modbus_gap_ticks);
     app_parameters_take(&app_line.parameters, &app_line.registers, APP_PARAMETERS_NOT_ASKED);
     app_line.registers.parameters =
-        NULL; /* the loader uses address and line only; it stores no parameters */
+        NULL; /* the loader uses the settings of both buses only; it stores no parameters */
     board_line_set(&app_line.registers.requested.line);
+    app_canopen_init(&app_line.canopen, side.drive.ts_s);
+    app_canopen_start(&app_line.canopen, &app_line.registers);
     app_modbus_follow(&app_line.modbus, &app_line.registers.requested.line, side.drive.ts_s,
                       side.config.modbus_gap_ticks);
     side.tick_cycles = side.config.board.pwm_cycles / side.drive.hardware.updates_per_period;
@@ -48,7 +50,12 @@ void app_loader_pass(void)
 {
     count_ticks();
     app_modbus_poll(&app_line.modbus, &app_line.registers, side.ticks);
-    if (!app_modbus_is_quiet(&app_line.modbus, side.ticks)) {
+    app_canopen_poll(&app_line.canopen, &app_line.registers, side.ticks);
+    if (app_line.canopen.restart) {
+        board_restart(false);
+    }
+    if (!app_modbus_is_quiet(&app_line.modbus, side.ticks) ||
+        !app_canopen_is_quiet(&app_line.canopen, side.ticks)) {
         return; /* an answer is being sent */
     }
     if (app_line.loader.restart) {

@@ -47,7 +47,7 @@ LAWS = {
     10: "noc_iron",
 }
 
-PER_REQUEST = 100  # words; of 123 that a request has room for
+PER_REQUEST = 62  # words; a transfer on CAN has room for 64, and their place takes two
 RESTART_S = 10.0  # chosen: many times what a start needs, and two requests without an answer
 ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
 BOARD_NAME = slice(30, 42)  # words of an image: the board it was made for
@@ -155,11 +155,6 @@ def _wait(drive: Drive, states: List[int], longest_s: float) -> Loader:
 
 
 def _enter(drive: Drive) -> Loader:
-    if drive.target.can:
-        raise DriveError(
-            "the loader answers over Modbus alone: connect the serial line or TCP, and give --port "
-            "or --tcp instead of --can"
-        )
     found = look(drive)
     if found.room_words == 0:
         raise DriveError("this board has no store: its constants are compiled in")

@@ -138,7 +138,7 @@ static void test_registers_of_a_block_act_together(void)
 
 static void test_what_cannot_be_a_block_is_refused(void)
 {
-    const int one[] = {APP_LOADER_ENTER};
+    const int one[] = {1};
     int       octets[MOST];
     uint32_t  code = 0;
 
@@ -153,11 +153,23 @@ static void test_what_cannot_be_a_block_is_refused(void)
     TEST_ASSERT_EQUAL_HEX32(0x06010002, bench_write(APP_CANOPEN_BLOCK, 0, 1, 1));
     TEST_ASSERT_EQUAL_HEX32(0x06070010,
                             bench_write(APP_CANOPEN_BLOCK, 3, 1, 3)); /* 1.5 registers */
+}
+
+static void test_the_loader_is_entered_by_a_block(void)
+{
+    const int enter[] = {APP_LOADER_ENTER};
+    const int leave[] = {APP_LOADER_LEAVE};
+    int       octets[MOST];
+    uint32_t  code = 0;
+
     registers.loader = &loader;
     TEST_ASSERT_EQUAL_HEX32(0, select(APP_LOADER_FIRST, 4));
     TEST_ASSERT_EQUAL_INT(8, upload(APP_CANOPEN_BLOCK, 2, octets, &code));
-    TEST_ASSERT_EQUAL_HEX32(0x06010002, download(3, one, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x06090030, download(3, leave, 1)); /* it is not there */
     TEST_ASSERT_FALSE(loader.restart);
+    TEST_ASSERT_EQUAL_HEX32(0, download(3, enter, 1));
+    TEST_ASSERT_TRUE(loader.restart);
+    TEST_ASSERT_TRUE(loader.enter);
 }
 
 static void test_a_block_is_as_large_as_its_room(void)
@@ -204,6 +216,7 @@ int main(void)
     RUN_TEST(test_a_block_has_what_modbus_reads);
     RUN_TEST(test_registers_of_a_block_act_together);
     RUN_TEST(test_what_cannot_be_a_block_is_refused);
+    RUN_TEST(test_the_loader_is_entered_by_a_block);
     RUN_TEST(test_a_block_is_as_large_as_its_room);
     RUN_TEST(test_the_drive_identifies_itself);
     return UNITY_END();

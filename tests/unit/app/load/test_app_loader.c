@@ -556,7 +556,7 @@ static void ask(uint16_t number, uint16_t value, void (*pass)(void))
     const int octets[6] = {1, 6, number >> 8, number & 0xFF, value >> 8, value & 0xFF};
 
     modbus_frame_receive(octets, 6);
-    for (int n = 0; n < 200; n++) {
+    for (int n = 0; n < 400; n++) {
         fake_board.cycles += board_config.board.pwm_cycles / 2U;
         pass();
     }
