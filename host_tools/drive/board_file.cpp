@@ -7,10 +7,6 @@
 
 #include "drive/shipped_boards.hpp"
 
-extern "C" {
-#include "clock_tree.h"
-}
-
 namespace sdre {
 namespace {
 
@@ -23,21 +19,21 @@ constexpr Range  resistance_Ohm{10.0, 1e7};
 constexpr Range  temperature_degC{-40.0, 200.0};
 constexpr double two_sensors = 2.0; // of a board file that does not tell
 
-std::array<Range, BOARD_FACT_COUNT> allowed_values()
+std::array<Range, BOARD_FACT_COUNT> allowed_values(const Processor &p)
 {
     std::array<Range, BOARD_FACT_COUNT> a{};
-    a[BOARD_FACT_PWM_CLOCK_Hz]    = {CLOCK_TBCLK_Hz, CLOCK_TBCLK_Hz}; // clock_tree.h has no other
-    a[BOARD_FACT_GATE_ON_LEVEL]   = {1.0, 1.0}; // pwm.c and gpio.c have no other
-    a[BOARD_FACT_DEAD_TIME_MIN_s] = {1e-8, 2e-5};
-    a[BOARD_FACT_PRECHARGE_s]     = {0.0, 0.5};
-    a[BOARD_FACT_DUTY_MAX]        = {0.5, 1.0};
-    a[BOARD_FACT_PULSE_MIN_s]     = {0.0, 2e-5};
-    a[BOARD_FACT_CURRENT_RANGE_A] = current_A;
-    a[BOARD_FACT_CURRENT_SENSORS] = {2.0, 3.0};
-    a[BOARD_FACT_RATED_CURRENT_A] = current_A;
-    a[BOARD_FACT_TRIP_CURRENT_A]  = current_A;
-    a[BOARD_FACT_DC_LINK_RANGE_V] = dc_link_V;
-    a[BOARD_FACT_RATED_DC_LINK_V] = dc_link_V;
+    a[BOARD_FACT_PWM_CLOCK_Hz]             = {p.counter_Hz, p.counter_Hz};
+    a[BOARD_FACT_GATE_ON_LEVEL]            = {1.0, 1.0}; // no board layer has another
+    a[BOARD_FACT_DEAD_TIME_MIN_s]          = {1e-8, 2e-5};
+    a[BOARD_FACT_PRECHARGE_s]              = {0.0, 0.5};
+    a[BOARD_FACT_DUTY_MAX]                 = {0.5, 1.0};
+    a[BOARD_FACT_PULSE_MIN_s]              = {0.0, 2e-5};
+    a[BOARD_FACT_CURRENT_RANGE_A]          = current_A;
+    a[BOARD_FACT_CURRENT_SENSORS]          = {2.0, 3.0};
+    a[BOARD_FACT_RATED_CURRENT_A]          = current_A;
+    a[BOARD_FACT_TRIP_CURRENT_A]           = current_A;
+    a[BOARD_FACT_DC_LINK_RANGE_V]          = dc_link_V;
+    a[BOARD_FACT_RATED_DC_LINK_V]          = dc_link_V;
     a[BOARD_FACT_NTC_RESISTANCE_Ohm]       = resistance_Ohm;
     a[BOARD_FACT_NTC_BETA_K]               = {1e3, 1e4};
     a[BOARD_FACT_NTC_DIVIDER_Ohm]          = resistance_Ohm;
@@ -70,6 +66,17 @@ std::string read_name(TomlReader &t)
         t.fail("name", fmt::format("must be 1 .. {} of A-Z a-z 0-9 _ -", longest));
     }
     return name;
+}
+
+const Processor *read_processor(TomlReader &t)
+{
+    const std::string      name = t.text_or("processor", default_processor().name);
+    const Processor *const p    = find_processor(name);
+    if (p == nullptr) {
+        t.fail("processor",
+               fmt::format("= \"{}\" is not allowed: must be one of {}", name, processor_names()));
+    }
+    return p;
 }
 
 /// A board without any of these keys has no brake chopper: 0. One of them asks for all.
@@ -116,7 +123,8 @@ BoardFile read_board_table(const toml::table &root, const fs::path &file)
     if (b.name != file.stem().string()) {
         t.fail("name", fmt::format("= \"{}\" is not allowed: must be that of the file", b.name));
     }
-    const std::array<Range, BOARD_FACT_COUNT> allowed = allowed_values();
+    b.processor                                       = read_processor(t);
+    const std::array<Range, BOARD_FACT_COUNT> allowed = allowed_values(*b.processor);
     for (std::size_t fact = 0; fact < allowed.size(); fact++) {
         b.facts.at(fact) = read_fact(t, fact, allowed.at(fact));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Board file: the facts of a board around the processor (firmware/config/boards).
+/// Board file: a board's processor, and the facts of what is around it (firmware/config/boards).
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/toml_reader.hpp"
+#include "drive/processor.hpp"
 
 extern "C" {
 #include "board_identity.h"
@@ -18,6 +19,7 @@ namespace sdre {
 struct BoardFile {
     std::string                          name;
     std::string                          file; ///< that it was read from
+    const Processor                     *processor = &default_processor();
     std::array<double, BOARD_FACT_COUNT> facts{};
 
     double operator[](board_fact_t fact) const

@@ -187,12 +187,13 @@ CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &mo
 /// Its law says how many cycles a control period takes.
 void settle_pwm_frequency(const TomlReader &t, Drive &drive) // EQ-BOARD-1
 {
+    const Processor  &p       = processor_of(drive);
     Inverter         &i       = drive.inverter;
     const std::string refusal = pwm_refusal(drive, i.pwm_wanted_Hz);
     if (!refusal.empty()) {
         t.fail("[inverter] pwm_frequency_Hz", refusal);
     }
-    i.pwm_frequency_Hz = counted_pwm_Hz(pwm_full_cnt(i.pwm_wanted_Hz));
+    i.pwm_frequency_Hz = counted_pwm_Hz(p, pwm_full_cnt(p, i.pwm_wanted_Hz));
     if (i.dead_time_s * i.pwm_frequency_Hz > 0.1) {
         t.fail("[inverter] dead_time_s",
                "is not allowed: must be at most a tenth of the PWM period");

@@ -78,8 +78,8 @@ struct Encoder {
 struct CurrentSensors {
     double range_A     = 0.0; ///< full scale of the converter, either way
     double noise_rms_A = 0.0;
-    int    adc_bits    = 12; ///< the F28335's converter
-    int    count       = 2;  ///< 2: phases a and b; 3: c too
+    int    adc_bits    = 12;
+    int    count       = 2; ///< 2: phases a and b; 3: c too
 };
 
 /// Weights of the speed controller: speed, i_q, i_d error; v_q, v_d.

@@ -8,22 +8,17 @@
 
 #include "drive/cycle_budget.hpp"
 #include "drive/drive_file.hpp"
-
-extern "C" {
-#include "clock_tree.h"
-}
+#include "drive/processor.hpp"
 
 namespace sdre {
 namespace {
 
-constexpr double counter_Hz     = CLOCK_TBCLK_Hz;
-constexpr double cycles_per_cnt = 2.0 * CLOCK_SYSCLK_PER_TBCLK; // up and down
-constexpr double most_cycles    = 65535.0; // of a PWM period: the capture timer's run, board.c
 // Half a count of these is the 0.1 % by which a frequency may differ.
 constexpr double least_full_cnt = 500.0;
 // Measured with a chopper in host_stub's constants: what the default drive's period takes more, at the band's upper end.
 constexpr double chopper_cycles = 193.0;
-double           law_cycles(const Drive &d)
+
+double law_cycles(const Drive &d)
 {
     switch (d.law) {
     case Law::noc_h:
@@ -67,36 +62,38 @@ std::string seven_digits(double pwm_Hz)
 
 } // namespace
 
-double pwm_full_cnt(double pwm_Hz)
+double pwm_full_cnt(const Processor &processor, double pwm_Hz)
 {
-    return std::round(counter_Hz / (2.0 * pwm_Hz));
+    return std::round(processor.counter_Hz / (2.0 * pwm_Hz));
 }
 
-double counted_pwm_Hz(double full_cnt)
+double counted_pwm_Hz(const Processor &processor, double full_cnt)
 {
-    return counter_Hz / (2.0 * full_cnt);
+    return processor.counter_Hz / (2.0 * full_cnt);
 }
 
 FullCountRange pwm_full_cnt_range(const Drive &d)
 {
-    const double periods = d.inverter.updates_per_period;
-    return {std::max(std::ceil(periods * least_cycles(d) / cycles_per_cnt), least_full_cnt),
-            std::floor(most_cycles / cycles_per_cnt)};
+    const Processor &p       = processor_of(d);
+    const double     periods = d.inverter.updates_per_period;
+    return {std::max(std::ceil(periods * least_cycles(d) / p.cycles_per_cnt()), least_full_cnt),
+            std::floor(p.most_cycles / p.cycles_per_cnt())};
 }
 
 std::string pwm_refusal(const Drive &d, double pwm_Hz)
 {
+    const Processor     &p       = processor_of(d);
     const FullCountRange allowed = pwm_full_cnt_range(d);
-    const double         full    = pwm_Hz > 0.0 ? pwm_full_cnt(pwm_Hz) : 0.0;
+    const double         full    = pwm_Hz > 0.0 ? pwm_full_cnt(p, pwm_Hz) : 0.0;
     if (full >= allowed.least && full <= allowed.most) {
         return "";
     }
     return fmt::format(
         "= {:g} is not allowed: must be {:.0f} .. {:.0f}; a PWM period has at most {:g} cycles of "
         "{:g} MHz, and law \"{}\"{} needs {:.0f}{} (docs/hardware.md, \"Cycle budget\")",
-        pwm_Hz, std::ceil(counted_pwm_Hz(allowed.most)), std::floor(counted_pwm_Hz(allowed.least)),
-        most_cycles, 1e-6 * CLOCK_SYSCLK_Hz, law_name(d.law), with_words(d),
-        std::ceil(least_cycles(d)),
+        pwm_Hz, std::ceil(counted_pwm_Hz(p, allowed.most)),
+        std::floor(counted_pwm_Hz(p, allowed.least)), p.most_cycles, 1e-6 * p.clock_Hz,
+        law_name(d.law), with_words(d), std::ceil(least_cycles(d)),
         d.inverter.updates_per_period == 1 ? "" : " in each of its two updates");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// PWM frequencies that the F28335's counter has: it runs at 75 MHz, up and down, so that a period is an even number of counts.
+/// PWM frequencies that a processor's counter has: it counts up and down, so that a period is an even number of counts.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@ namespace sdre {
 
 struct Drive;
 struct Inverter;
+struct Processor;
 
-/// The nearest number of counts in half a period, register TBPRD, as a whole number. EQ-BOARD-1
-double pwm_full_cnt(double pwm_Hz);
+/// The nearest number of counts in half a period, as a whole number. EQ-BOARD-1
+double pwm_full_cnt(const Processor &processor, double pwm_Hz);
 
 /// The frequency of so many counts.
-double counted_pwm_Hz(double full_cnt);
+double counted_pwm_Hz(const Processor &processor, double full_cnt);
 
-/// Counts in half a period: at least what the whole period's cycles take, at most what the capture timer allows. EQ-BOARD-6
+/// Counts in half a period: at least what the whole period's cycles take, at most what the processor allows. EQ-BOARD-6
 struct FullCountRange {
     double least;
     double most;

@@ -343,16 +343,25 @@ Motor motor_of(const Machine &m)
     return motor;
 }
 
-/// Without a fact, the least of the board.
-Value dead_time(Reader &r, const Facts &facts, double pwm_Hz)
+/// Nothing: no board is named.
+std::optional<BoardFile> board_of(const Facts &facts)
 {
     if (facts.board.empty()) {
-        return r.or_chosen("dead_time", default_dead_share / pwm_Hz,
-                           "1.5 % of a PWM period, not given");
+        return {};
     }
     const std::optional<BoardFile> board = named_board(facts.board, facts.drive_file);
     if (!board) {
         throw InputError(fmt::format("{}: board {}", facts.source, no_such_board(facts.board)));
+    }
+    return board;
+}
+
+/// Without a fact, the least of the board.
+Value dead_time(Reader &r, const std::optional<BoardFile> &board, double pwm_Hz)
+{
+    if (!board) {
+        return r.or_chosen("dead_time", default_dead_share / pwm_Hz,
+                           "1.5 % of a PWM period, not given");
     }
     return r.or_chosen("dead_time", (*board)[BOARD_FACT_DEAD_TIME_MIN_s],
                        "least of the board, not given");
@@ -379,8 +388,10 @@ double needed_voltage_V(const Machine &m, double torque, double speed_radps)
 
 Machine machine_of(const Facts &facts, const std::string &default_name, Findings &findings)
 {
-    Reader  r(facts, findings);
-    Machine m;
+    const std::optional<BoardFile> board = board_of(facts);
+    const Processor               &p     = board ? *board->processor : default_processor();
+    Reader                         r(facts, findings);
+    Machine                        m;
     m.name           = facts.name.empty() ? default_name : facts.name;
     m.pole_pairs     = pole_pairs(r);
     m.resistance_Ohm = per_phase(r, "resistance");
@@ -396,9 +407,9 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     m.dc_link_V          = r.required("dc_link");
     m.pwm_Hz             = r.or_chosen("pwm", default_pwm_Hz, "not given");
     m.pwm_wanted_Hz      = m.pwm_Hz.si;
-    m.pwm_Hz.si          = counted_pwm_Hz(std::max(pwm_full_cnt(m.pwm_wanted_Hz), 1.0));
+    m.pwm_Hz.si          = counted_pwm_Hz(p, std::max(pwm_full_cnt(p, m.pwm_wanted_Hz), 1.0));
     m.updates_per_period = r.or_chosen("updates_per_period", 1.0, "one a PWM period");
-    m.dead_time_s        = dead_time(r, facts, m.pwm_Hz.si);
+    m.dead_time_s        = dead_time(r, board, m.pwm_Hz.si);
     m.lines              = encoder_lines(r);
     m.range_A            = r.plain("current_range");
     m.noise_A            = r.plain("current_noise");

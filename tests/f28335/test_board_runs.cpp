@@ -143,7 +143,8 @@ TEST_P(OtherFrequencies, DriversAndFakeAndCoreAgree)
     Scenario s                          = shipped("board_load_step");
     s.drive = read_drive_file(std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/" + drive +
                               ".toml");
-    s.drive.inverter.pwm_frequency_Hz   = counted_pwm_Hz(pwm_full_cnt(pwm_Hz));
+    s.drive.inverter.pwm_frequency_Hz =
+        counted_pwm_Hz(processor_of(s.drive), pwm_full_cnt(processor_of(s.drive), pwm_Hz));
     s.drive.inverter.updates_per_period = updates;
     s.drive.board.file.reset();               // its gates need more dead time
     s.drive.inverter.dead_time_s      = 1e-6; // at most a tenth of the shortest period

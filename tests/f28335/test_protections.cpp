@@ -61,11 +61,11 @@ Outcome outcome_of(const Scenario &s, BoardKind kind)
     return o;
 }
 
-class Processor : public ::testing::TestWithParam<const char *> {};
+class ProcessorFault : public ::testing::TestWithParam<const char *> {};
 
 } // namespace
 
-INSTANTIATE_TEST_SUITE_P(Protections, Processor,
+INSTANTIATE_TEST_SUITE_P(Protections, ProcessorFault,
                          ::testing::Values("tick_hung", "trigger_lost", "interrupt_masked"),
                          [](const auto &p) { return std::string(p.param); });
 
@@ -105,7 +105,7 @@ TEST(Copies, EachWordOfTheCodeThatChangesIsAFault)
     }
 }
 
-TEST_P(Processor, BridgeOpensWithinSixTenthsOfAMillisecond)
+TEST_P(ProcessorFault, BridgeOpensWithinSixTenthsOfAMillisecond)
 {
     const std::string fault = fmt::format("kind = \"{}\"\n", GetParam());
     for (const double speed : {0.0, 300.0, -523.0, 850.0}) {

@@ -1073,6 +1073,14 @@ TEST(BoardFile, EveryFactIsRequiredAndHasItsRange)
     EXPECT_EQ(board_complaint(with_line(own_text(), "schema", "2")).rfind("schema = 2", 0), 0U);
 }
 
+TEST(BoardFile, NamesAProcessorThatThereIs)
+{
+    EXPECT_EQ(board_complaint(own_text() + "processor = \"f28335\"\n"), "accepted");
+    const std::string what = board_complaint(own_text() + "processor = \"f28336\"\n");
+    EXPECT_EQ(what.rfind("processor = \"f28336\" is not allowed: must be one of f28335", 0), 0U)
+        << what;
+}
+
 TEST(BoardFile, RatingsAreInOrder)
 {
     for (const auto &[key, value, bound] :

@@ -13,6 +13,7 @@
 #include "design/board/board_constants.hpp"
 #include "drive/core_types.hpp"
 #include "drive/drive_file.hpp"
+#include "drive/processor.hpp"
 #include "drive/pwm_frequency.hpp"
 
 using namespace sdre;
@@ -21,6 +22,7 @@ namespace {
 
 const std::string source_dir = SDRE_SOURCE_DIR;
 const std::string plain      = "ipmsm_390w_counts"; // law "noc" without positions
+const Processor  &processor  = default_processor();
 
 /// The background's longest pass takes 0.32 ms alone and may take 3 ms.
 constexpr double background_share = 0.32 / 3.0;
@@ -77,7 +79,7 @@ double dearest(const std::string &column)
 /// The encoder form's with one update, to a whole hertz below that of the shortest period.
 double highest_Hz()
 {
-    return std::floor(counted_pwm_Hz(pwm_full_cnt_range(shipped(plain)).least));
+    return std::floor(counted_pwm_Hz(processor, pwm_full_cnt_range(shipped(plain)).least));
 }
 
 } // namespace
@@ -112,8 +114,8 @@ TEST(PwmFrequency, PeriodOfTheTablesIsThatOfTheCounter)
     Drive d = shipped(plain);
     d.board.file.reset(); // its gates need more dead time than the fast ones have
     for (int full = 500; full <= 16383; full++) {
-        d.inverter.pwm_frequency_Hz = counted_pwm_Hz(full);
-        ASSERT_EQ(pwm_full_cnt(d.inverter.pwm_frequency_Hz), full);
+        d.inverter.pwm_frequency_Hz = counted_pwm_Hz(processor, full);
+        ASSERT_EQ(pwm_full_cnt(processor, d.inverter.pwm_frequency_Hz), full);
         for (const int updates : {1, 2}) {
             d.inverter.updates_per_period = updates;
             ASSERT_EQ(single(control_period_s(d)), single(2.0 * full / 75e6 / updates)) << full;
@@ -151,7 +153,8 @@ TEST(PwmFrequency, DigestIsOfTheFrequencyThatRuns)
         const Drive actual = at(plain, wanted.inverter.pwm_frequency_Hz, 1);
         EXPECT_EQ(actual.inverter.pwm_frequency_Hz, wanted.inverter.pwm_frequency_Hz);
         EXPECT_EQ(drive_digest(actual), drive_digest(wanted));
-        const double next = counted_pwm_Hz(pwm_full_cnt(pwm_Hz) - (pwm_Hz <= 20000.0 ? 1.0 : -1.0));
+        const double next = counted_pwm_Hz(processor, pwm_full_cnt(processor, pwm_Hz) -
+                                                          (pwm_Hz <= 20000.0 ? 1.0 : -1.0));
         EXPECT_NE(drive_digest(at(plain, next, 1)), drive_digest(wanted));
     }
 }

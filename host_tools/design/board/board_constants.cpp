@@ -14,19 +14,11 @@
 #include "drive/core_types.hpp"
 #include "drive/pwm_frequency.hpp"
 
-extern "C" {
-#include "clock_tree.h"
-}
-
 namespace sdre {
 namespace {
 
 constexpr double pi         = 3.14159265358979323846;
-constexpr double counter_Hz = CLOCK_TBCLK_Hz;
-constexpr int    codes      = BOARD_ADC_CODES;
-constexpr int    codes_bits = 12;
 constexpr double same_ratio = 1e-4; // what the application takes for the same number
-constexpr int    most_turn  = 65532;
 
 // Converter 15 codes, half of the supply with 1 % resistors 20 codes, sensor 1 % of its range 41 codes: 76, and room.
 constexpr double offset_max_cnt = 100.0;
@@ -69,9 +61,15 @@ constexpr int    ntc_step_cnt  = 128;
 constexpr double ntc_25_degC_K = 298.15;
 constexpr double zero_degC_K   = 273.15;
 
-[[noreturn]] void refuse(const std::string &what)
+[[noreturn]] void refuse(const Drive &d, const std::string &what)
 {
-    throw InputError("the F28335's board cannot have " + what);
+    throw InputError(
+        fmt::format("a board with the processor {} cannot have {}", processor_of(d).name, what));
+}
+
+double codes_of(const Drive &d)
+{
+    return std::exp2(processor_of(d).adc_bits);
 }
 
 std::uint16_t ticks16(double seconds, double pwm_Hz)
@@ -85,32 +83,36 @@ std::uint32_t ticks32(double seconds, double pwm_Hz)
 }
 
 /// A drive that was read has a frequency of the counter; one that was changed since may not.
-std::uint16_t full_cnt(double pwm_Hz)
+std::uint16_t full_cnt(const Drive &d)
 {
-    const double full = pwm_full_cnt(pwm_Hz);
-    if (full < 1.0 || full > 65535.0 || counted_pwm_Hz(full) != pwm_Hz) {
-        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:.7g}: the nearest that its counter has "
-                           "is {:.7g}",
-                           pwm_Hz, counted_pwm_Hz(full)));
+    const Processor &p      = processor_of(d);
+    const double     pwm_Hz = d.inverter.pwm_frequency_Hz;
+    const double     full   = pwm_full_cnt(p, pwm_Hz);
+    if (full < 1.0 || full > 65535.0 || counted_pwm_Hz(p, full) != pwm_Hz) {
+        refuse(d, fmt::format("[inverter] pwm_frequency_Hz = {:.7g}: the nearest that its counter "
+                              "has is {:.7g}",
+                              pwm_Hz, counted_pwm_Hz(p, full)));
     }
     return static_cast<std::uint16_t>(full);
 }
 
 board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
 {
-    board_setup_t s{};
-    s.duty_full_cnt = full_cnt(d.inverter.pwm_frequency_Hz);
-    s.pwm_cycles    = 2U * CLOCK_SYSCLK_PER_TBCLK * s.duty_full_cnt;
+    const Processor &p = processor_of(d);
+    board_setup_t    s{};
+    s.duty_full_cnt = full_cnt(d);
+    s.pwm_cycles    = static_cast<std::uint32_t>(p.cycles_per_cnt() * s.duty_full_cnt);
     // No less than asked for; the last digit of a product is no count.
-    const double dead = std::ceil(d.inverter.dead_time_s * counter_Hz - same_ratio);
-    if (dead < 1.0 || dead > CLOCK_DEAD_TIME_MAX_cnt) {
-        refuse(fmt::format("[inverter] dead_time_s = {:g}: must be {:.2g} .. {:.4g}",
-                           d.inverter.dead_time_s, 1.0 / counter_Hz,
-                           CLOCK_DEAD_TIME_MAX_cnt / counter_Hz));
+    const double dead = std::ceil(d.inverter.dead_time_s * p.counter_Hz - same_ratio);
+    if (dead < 1.0 || dead > p.most_dead_time_cnt) {
+        refuse(d, fmt::format("[inverter] dead_time_s = {:g}: must be {:.2g} .. {:.4g}",
+                              d.inverter.dead_time_s, 1.0 / p.counter_Hz,
+                              p.most_dead_time_cnt / p.counter_Hz));
     }
     s.dead_time_cnt = static_cast<std::uint16_t>(dead);
-    if (4 * d.encoder.lines > most_turn) {
-        refuse(fmt::format("[encoder] lines = {}: at most {}", d.encoder.lines, most_turn / 4));
+    if (4 * d.encoder.lines > p.most_positions) {
+        refuse(d, fmt::format("[encoder] lines = {}: at most {}", d.encoder.lines,
+                              p.most_positions / 4));
     }
     s.positions       = static_cast<std::uint16_t>(4 * d.encoder.lines);
     s.current_sensors = static_cast<std::uint16_t>(d.current_sensors.count);
@@ -120,10 +122,11 @@ board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
 
 app_scale_config_t scale_of(const Drive &d) // EQ-BOARD-2
 {
-    if (d.current_sensors.adc_bits != codes_bits) {
-        refuse(fmt::format("[current_sensors] adc_bits = {}: its converter has {}",
-                           d.current_sensors.adc_bits, codes_bits));
+    if (d.current_sensors.adc_bits != processor_of(d).adc_bits) {
+        refuse(d, fmt::format("[current_sensors] adc_bits = {}: its converter has {}",
+                              d.current_sensors.adc_bits, processor_of(d).adc_bits));
     }
+    const double       codes = codes_of(d);
     app_scale_config_t s{};
     s.current_A_per_cnt = single(2.0 * d.current_sensors.range_A / codes);
     s.current_zero_cnt  = single(codes / 2.0);
@@ -136,8 +139,10 @@ app_scale_config_t scale_of(const Drive &d) // EQ-BOARD-2
 }
 
 /// code / codes = R / (R + divider), R = R25 exp(B (1 / T - 1 / 298.15 K)); to a hundredth of a degree. EQ-BOARD-4
-std::array<float, ntc_points> temperatures(const BoardDescription &b)
+std::array<float, ntc_points> temperatures(const Drive &d)
 {
+    const BoardDescription       &b     = d.board;
+    const double                  codes = codes_of(d);
     std::array<float, ntc_points> out{};
     for (std::size_t n = 0; n < ntc_points; n++) {
         const double code  = ntc_first_cnt + ntc_step_cnt * static_cast<double>(n);
@@ -148,7 +153,8 @@ std::array<float, ntc_points> temperatures(const BoardDescription &b)
         out.at(n)         = single(0.01 * std::round(100.0 * degC));
     }
     if (out.front() > 300.0F || out.back() < -100.0F) {
-        refuse("[board] ntc_beta_K with these resistances: its table would leave -100 .. 300 degC");
+        refuse(d,
+               "[board] ntc_beta_K with these resistances: its table would leave -100 .. 300 degC");
     }
     return out;
 }
@@ -204,8 +210,8 @@ app_gate_config_t gate_of(const Drive &d, std::uint16_t full, double pwm_Hz)
                        trip_speed_e_radps(d))
             : 0.0);
     g.duty_max_cnt  = static_cast<std::uint16_t>(std::floor(d.board.duty_max * full));
-    g.pulse_min_cnt = static_cast<std::uint16_t>(
-        std::min(std::ceil(d.board.pulse_min_s * counter_Hz), std::floor(0.25 * full)));
+    g.pulse_min_cnt = static_cast<std::uint16_t>(std::min(
+        std::ceil(d.board.pulse_min_s * processor_of(d).counter_Hz), std::floor(0.25 * full)));
     return g;
 }
 
@@ -228,7 +234,7 @@ app_chopper_config_t chopper_of(const Drive &d)
         return c;
     }
     const BoardFile &b         = *d.board.file;
-    const double     cnt_per_V = codes / d.board.dc_link_range_V;
+    const double     cnt_per_V = codes_of(d) / d.board.dc_link_range_V;
     c.on_cnt  = static_cast<std::uint16_t>(std::lround(b[BOARD_FACT_CHOPPER_ON_V] * cnt_per_V));
     c.off_cnt = static_cast<std::uint16_t>(std::lround(b[BOARD_FACT_CHOPPER_OFF_V] * cnt_per_V));
     c.per_V2 = single(1.0 / (b[BOARD_FACT_CHOPPER_RESISTANCE_Ohm] * b[BOARD_FACT_CHOPPER_POWER_W]));
@@ -242,13 +248,14 @@ double largest_trip_current_A(const Drive &drive)
 {
     // Less the zero's largest error, and a code.
     const double shown =
-        drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes);
+        drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes_of(drive));
     return drive.board.file ? std::min(shown, (*drive.board.file)[BOARD_FACT_TRIP_CURRENT_A])
                             : shown;
 }
 
 double largest_trip_dc_link_V(const Drive &drive)
 {
+    const double codes = codes_of(drive);
     const double shown = drive.board.dc_link_range_V * (codes - 1.0) / codes;
     return drive.board.file ? std::min(shown, (*drive.board.file)[BOARD_FACT_RATED_DC_LINK_V])
                             : shown;
@@ -263,7 +270,7 @@ BoardConstants board_constants(const Drive &d)
     c.pwm_period_s       = single(1.0 / pwm_Hz);
     c.dead_time_s        = single(d.inverter.dead_time_s);
     c.scale              = scale_of(d);
-    out.ntc_degC         = temperatures(d.board);
+    out.ntc_degC         = temperatures(d);
     out.drive_name       = d.name;
     out.digest           = drive_digest(d);
     c.angle              = angle_of(d);

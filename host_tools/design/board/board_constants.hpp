@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Constants of the application and of the F28335's board layer, from the drive file (EQ-BOARD-1 to
+/// Constants of the application and of the board layer, from the drive file (EQ-BOARD-1 to
 /// 6).
 #pragma once
 

@@ -7,10 +7,6 @@
 #include "design/board/board_constants.hpp"
 #include "drive/core_types.hpp"
 
-extern "C" {
-#include "clock_tree.h"
-}
-
 namespace sdre {
 namespace {
 
@@ -19,7 +15,7 @@ BoardFile simulated(const Drive &d)
     const BoardDescription &b = d.board;
     BoardFile               s;
     s.name                                       = "simulated";
-    s.facts[BOARD_FACT_PWM_CLOCK_Hz]             = CLOCK_TBCLK_Hz;
+    s.facts[BOARD_FACT_PWM_CLOCK_Hz]             = default_processor().counter_Hz;
     s.facts[BOARD_FACT_GATE_ON_LEVEL]            = 1.0;
     s.facts[BOARD_FACT_DEAD_TIME_MIN_s]          = d.inverter.dead_time_s;
     s.facts[BOARD_FACT_PRECHARGE_s]              = b.precharge_s;
