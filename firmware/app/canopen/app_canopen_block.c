@@ -71,15 +71,10 @@ uint32_t app_canopen_block_write(const app_canopen_t *c, app_registers_t *r, uin
     return result;
 }
 
-static const char *board_name(const app_registers_t *r)
-{
-    return (r->loader != NULL) ? r->loader->in_force->board->name : "";
-}
-
 const char *app_canopen_block_text(const app_registers_t *r, uint16_t sub)
 {
-    const char *const texts[APP_CANOPEN_IDENTITY_SUBS] = {r->config->drive_name, r->config->digest,
-                                                          APP_REGISTERS_DIGEST, board_name(r)};
+    const char *const texts[APP_CANOPEN_IDENTITY_SUBS] = {
+        r->config->drive_name, r->config->digest, APP_REGISTERS_DIGEST, app_registers_board(r)};
 
     return ((sub > 0U) && (sub <= APP_CANOPEN_IDENTITY_SUBS)) ? texts[sub - 1U] : NULL;
 }

@@ -26,6 +26,9 @@
 #define READ_ANSWER     0x40U
 #define ABORTED         0x80U
 
+/* Octets of a transfer whose words have two each. */
+static const uint16_t paired_octets = 2U * APP_CANOPEN_SDO_WORDS;
+
 static void begin_answer(app_canopen_t *c, uint16_t command)
 {
     static const board_can_frame_t empty = {.length = OCTETS};
@@ -62,20 +65,21 @@ static void abort_transfer(app_canopen_t *c, uint32_t reason)
 /* Most octets that the transfer can have. */
 static uint16_t most_of(const app_canopen_sdo_t *s)
 {
-    return s->paired ? (uint16_t)(2U * APP_CANOPEN_SDO_WORDS) : (uint16_t)APP_CANOPEN_SDO_MAX;
+    return s->paired ? paired_octets : (uint16_t)APP_CANOPEN_SDO_MAX;
 }
 
 /* Octets that the room of the transfer holds. */
 static uint16_t room_of(const app_canopen_sdo_t *s)
 {
-    return (uint16_t)(s->paired ? (2U * APP_CANOPEN_SDO_WORDS) : APP_CANOPEN_SDO_WORDS);
+    return s->paired ? paired_octets : (uint16_t)APP_CANOPEN_SDO_WORDS;
 }
 
 static uint16_t octet_of(const app_canopen_sdo_t *s, uint16_t n)
 {
-    const uint16_t word = s->paired ? s->octets[n >> 1U] : s->octets[n];
+    const uint16_t word  = s->paired ? s->octets[n >> 1U] : s->octets[n];
+    const bool     upper = s->paired && ((n & 1U) != 0U);
 
-    return (uint16_t)((s->paired && ((n & 1U) != 0U)) ? (word >> 8U) : (word & 0xFFU));
+    return upper ? (uint16_t)(word >> 8U) : (uint16_t)(word & 0xFFU);
 }
 
 static void put_octet(app_canopen_sdo_t *s, uint16_t n, uint16_t octet)

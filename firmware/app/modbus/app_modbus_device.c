@@ -152,11 +152,6 @@ static bool is_known(const object_t *objects, uint16_t id)
     return known;
 }
 
-static const char *board_name(const app_registers_t *r)
-{
-    return (r->loader != NULL) ? r->loader->in_force->board->name : "";
-}
-
 void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
 {
     const object_t objects[OBJECTS] = {{0U, "sdre-drive"},
@@ -166,7 +161,7 @@ void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
                                        {0x80U, r->config->drive_name},
                                        {0x81U, r->config->digest},
                                        {0x82U, APP_REGISTERS_DIGEST},
-                                       {0x83U, board_name(r)}};
+                                       {0x83U, app_registers_board(r)}};
     const uint16_t code             = m->rx_octets[3];
     const uint16_t known            = is_known(objects, m->rx_octets[4]) ? 1U : 0U;
     const uint16_t wanted           = ((code == READ_ONE) || (known != 0U)) ? m->rx_octets[4] : 0U;

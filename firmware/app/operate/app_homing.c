@@ -20,21 +20,6 @@ typedef struct {
     bool     may_turn_back; /* FIND is reversed by a limit switch */
 } way_t;
 
-static const way_t ways[WITH_INDEX] = {{BOARD_INPUT_NEGATIVE, BACK, FORWARD, true, false},
-                                       {BOARD_INPUT_POSITIVE, FORWARD, BACK, true, false},
-                                       {BOARD_INPUT_HOME, FORWARD, BACK, true, false},
-                                       {BOARD_INPUT_HOME, FORWARD, FORWARD, false, false},
-                                       {BOARD_INPUT_HOME, BACK, FORWARD, true, false},
-                                       {BOARD_INPUT_HOME, BACK, BACK, false, false},
-                                       {BOARD_INPUT_HOME, FORWARD, BACK, true, true},
-                                       {BOARD_INPUT_HOME, FORWARD, FORWARD, false, true},
-                                       {BOARD_INPUT_HOME, FORWARD, BACK, false, true},
-                                       {BOARD_INPUT_HOME, FORWARD, FORWARD, true, true},
-                                       {BOARD_INPUT_HOME, BACK, FORWARD, true, true},
-                                       {BOARD_INPUT_HOME, BACK, BACK, false, true},
-                                       {BOARD_INPUT_HOME, BACK, FORWARD, false, true},
-                                       {BOARD_INPUT_HOME, BACK, BACK, true, true}};
-
 static bool has_switch(int16_t method)
 {
     return ((method >= 1) && (method <= WITH_INDEX)) ||
@@ -49,9 +34,23 @@ bool app_homing_knows(int16_t method)
 
 static const way_t *way_of(int16_t method)
 {
-    const int16_t number = (method > WITHOUT_LESS) ? (int16_t)(method - WITHOUT_LESS) : method;
-    const bool    has    = (number >= 1) && (number <= WITH_INDEX);
-    const int16_t row    = has ? (int16_t)(number - 1) : (int16_t)0;
+    static const way_t ways[WITH_INDEX] = {{BOARD_INPUT_NEGATIVE, BACK, FORWARD, true, false},
+                                           {BOARD_INPUT_POSITIVE, FORWARD, BACK, true, false},
+                                           {BOARD_INPUT_HOME, FORWARD, BACK, true, false},
+                                           {BOARD_INPUT_HOME, FORWARD, FORWARD, false, false},
+                                           {BOARD_INPUT_HOME, BACK, FORWARD, true, false},
+                                           {BOARD_INPUT_HOME, BACK, BACK, false, false},
+                                           {BOARD_INPUT_HOME, FORWARD, BACK, true, true},
+                                           {BOARD_INPUT_HOME, FORWARD, FORWARD, false, true},
+                                           {BOARD_INPUT_HOME, FORWARD, BACK, false, true},
+                                           {BOARD_INPUT_HOME, FORWARD, FORWARD, true, true},
+                                           {BOARD_INPUT_HOME, BACK, FORWARD, true, true},
+                                           {BOARD_INPUT_HOME, BACK, BACK, false, true},
+                                           {BOARD_INPUT_HOME, BACK, FORWARD, false, true},
+                                           {BOARD_INPUT_HOME, BACK, BACK, true, true}};
+    const int16_t      number = (method > WITHOUT_LESS) ? (int16_t)(method - WITHOUT_LESS) : method;
+    const bool         has    = (number >= 1) && (number <= WITH_INDEX);
+    const int16_t      row    = has ? (int16_t)(number - 1) : (int16_t)0;
 
     return &ways[row];
 }
@@ -87,7 +86,7 @@ static void attain_here(app_homing_t *h, const app_objects_t *o, const app_homin
     attain(h, o, seen->position, app_position_cnt(seen->position, &seen->position->actual));
 }
 
-static void begin(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
+static void begin_search(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
 {
     const bool here  = (o->homing_method == HERE) || (o->homing_method == HERE_OLD);
     const bool finds = has_switch(o->homing_method);
@@ -111,8 +110,10 @@ static int16_t direction(const app_homing_t *h, const app_objects_t *o)
     const way_t *w    = way_of(o->homing_method);
     int16_t      goes = w->passes;
 
-    if (o->homing_method >= INDEX_BACK) {
-        goes = (o->homing_method == INDEX_ON) ? FORWARD : BACK;
+    if (o->homing_method == INDEX_ON) {
+        goes = FORWARD;
+    } else if (o->homing_method >= INDEX_BACK) {
+        goes = BACK;
     } else if (h->stage == APP_HOMING_FIND) {
         goes = h->reversed ? (int16_t)-w->first : w->first;
     } else if ((h->stage == APP_HOMING_RETURN) ||
@@ -134,13 +135,14 @@ static bool goes_back(const app_homing_t *h, const app_objects_t *o)
  * after an alignment is one that has just been passed. */
 static bool passes_mark(app_homing_t *h, const app_angle_t *a, bool back)
 {
-    const bool    known = a->reference == APP_ANGLE_INDEX;
-    const int16_t off   = app_angle_turned_cnt(a->positions, a->zero_cnt, a->before_cnt);
-    const bool    near  = app_angle_cnt_within(off, (int32_t)(a->positions / 4U));
-    const bool    rises = (h->off_cnt < 0) && (off >= 0);
-    const bool    falls = (h->off_cnt > 0) && (off <= 0);
-    const bool    signs = h->known && (back ? falls : rises);
-    const bool    found = h->looked && known && near && (signs || !h->known);
+    const bool     known   = a->reference == APP_ANGLE_INDEX;
+    const int16_t  off     = app_angle_turned_cnt(a->positions, a->zero_cnt, a->before_cnt);
+    const uint16_t quarter = a->positions / 4U;
+    const bool     near    = app_angle_cnt_within(off, (int32_t)quarter);
+    const bool     rises   = (h->off_cnt < 0) && (off >= 0);
+    const bool     falls   = (h->off_cnt > 0) && (off <= 0);
+    const bool     signs   = h->known && (back ? falls : rises);
+    const bool     found   = h->looked && known && near && (signs || !h->known);
 
     h->off_cnt = off;
     h->known   = known;
@@ -160,8 +162,9 @@ static void search_mark(app_homing_t *h, const app_objects_t *o, const app_homin
 /* A limit switch that the shaft runs into, but the one that is searched. */
 static bool is_blocked(const app_objects_t *o, const app_homing_seen_t *seen, int16_t goes)
 {
-    const uint16_t ahead = (uint16_t)((goes > 0) ? BOARD_INPUT_POSITIVE : BOARD_INPUT_NEGATIVE);
-    const bool     own = has_switch(o->homing_method) && (way_of(o->homing_method)->input == ahead);
+    const uint16_t ahead =
+        (goes > 0) ? (uint16_t)BOARD_INPUT_POSITIVE : (uint16_t)BOARD_INPUT_NEGATIVE;
+    const bool own = has_switch(o->homing_method) && (way_of(o->homing_method)->input == ahead);
 
     return ((seen->active & ahead) != 0U) && !own;
 }
@@ -187,9 +190,10 @@ static void search_switch(app_homing_t *h, const app_objects_t *o, const app_hom
     }
 }
 
-static void go_on(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
+static void search_on(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
 {
-    const float spent_s = seen->ts_s * (float)(seen->ticks - h->began_ticks);
+    const uint32_t spent   = seen->ticks - h->began_ticks;
+    const float    spent_s = seen->ts_s * (float)spent;
 
     if (h->stage == APP_HOMING_INDEX) {
         search_mark(h, o, seen);
@@ -215,7 +219,7 @@ float app_homing_tick(app_homing_t *h, const app_objects_t *o, const app_homing_
     float      speed = 0.0f;
 
     if (high && !h->start_high) {
-        begin(h, o, seen);
+        begin_search(h, o, seen);
     } else if (!high && app_homing_moves(h->stage)) {
         h->stage = APP_HOMING_IDLE; /* interrupted */
     } else {
@@ -223,7 +227,7 @@ float app_homing_tick(app_homing_t *h, const app_objects_t *o, const app_homing_
     }
     h->start_high = high;
     if (app_homing_moves(h->stage)) {
-        go_on(h, o, seen);
+        search_on(h, o, seen);
     }
     if (app_homing_moves(h->stage)) {
         const bool fast = (h->stage == APP_HOMING_FIND) || (h->stage == APP_HOMING_LEAVE);

@@ -51,8 +51,9 @@ static const law_aim_t *at_path(app_modes_t *m, const app_command_t *asked)
     m->to_position.moves  = true;
     m->aim.position       = &m->to_position;
     m->aim.torque         = NULL;
-    app_path_tick(asked->path, &m->position.actual, m->drive.config->ts_s, &m->to_position.motion);
-    if (asked->path->deviates) {
+    app_path_t *const path = asked->path;
+    app_path_tick(path, &m->position.actual, m->drive.config->ts_s, &m->to_position.motion);
+    if (path->deviates) {
         m->sink_fault = APP_FAULT_FOLLOWING;
     }
     return &m->aim;

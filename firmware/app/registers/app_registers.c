@@ -96,6 +96,11 @@ static bool is_loader(const app_registers_t *r, uint16_t first)
     return (r->loader != NULL) && (first >= APP_LOADER_FIRST);
 }
 
+const char *app_registers_board(const app_registers_t *r)
+{
+    return (r->loader != NULL) ? r->loader->in_force->board->name : "";
+}
+
 static app_registers_result_t found(bool all)
 {
     return all ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;

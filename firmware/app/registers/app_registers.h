@@ -203,6 +203,9 @@ uint16_t app_registers_inertia_changes(const app_registers_t *r);
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
                                                   uint16_t count, uint16_t *values);
 
+/** Name of the board; empty until the application knows its image. */
+const char *app_registers_board(const app_registers_t *r);
+
 /** Reads `count` input registers from `first` on. */
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values);

@@ -5,7 +5,7 @@
 
 #include "app_registers_count.h"
 
-static bool is_whole(const app_registers_entry_t *e)
+static bool has_no_unit(const app_registers_entry_t *e)
 {
     return (e->type != APP_REGISTERS_DEC) && !(e->per_unit > 0.0f);
 }
@@ -27,7 +27,7 @@ static const void *place(const app_registers_t *r, const app_registers_entry_t *
     return &((const char *)home)[e->offset];
 }
 
-static uint32_t whole(const app_registers_t *r, const app_registers_entry_t *e)
+static uint32_t whole_of(const app_registers_t *r, const app_registers_entry_t *e)
 {
     const void *const at = place(r, e);
     uint32_t          x  = 0UL;
@@ -78,8 +78,8 @@ uint32_t app_registers_place_value(const app_registers_t *r, const app_registers
 {
     const bool computed = e->home == APP_REGISTERS_COMPUTED;
 
-    if (is_whole(e)) {
-        return computed ? app_registers_map_whole(r, e->offset) : whole(r, e);
+    if (has_no_unit(e)) {
+        return computed ? app_registers_map_whole(r, e->offset) : whole_of(r, e);
     }
     return app_registers_count_of(computed ? app_registers_map_real(r, e->offset) : real(r, e), e);
 }

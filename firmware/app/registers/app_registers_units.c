@@ -45,7 +45,8 @@ bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *
     const app_units_t *now     = &r->requested.units;
     const uint16_t     turned  = (uint16_t)(now->polarity ^ w->units.polarity);
     const uint16_t     counts  = (uint16_t)r->drive->hardware.encoder_positions;
-    bool               reduces = (w->units.polarity & ~(uint32_t)POLARITY_BITS) == 0U;
+    const uint32_t     known   = POLARITY_BITS;
+    bool               reduces = (w->units.polarity & ~known) == 0U;
 
     if (is_other(now, &w->units)) {
         reduces = reduces && app_units_reduce(&w->units, counts, &w->scale);

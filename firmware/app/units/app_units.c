@@ -49,27 +49,28 @@ bool app_units_reduce(const app_units_t *u, uint16_t positions, app_units_scale_
 }
 
 /* x num / den, rounded to the nearest and limited. Both factors are below 2^31. */
-static int32_t scaled(int32_t x, uint32_t num, uint32_t den, bool reversed)
+static int32_t rescaled(int32_t x, uint32_t num, uint32_t den, bool reversed)
 {
-    const int64_t product = (int64_t)x * (int64_t)num;
-    const int64_t half    = (int64_t)(den / 2U);
-    const int64_t by      = (int64_t)den;
-    const int64_t beyond  = (product < 0) ? (product - half) : (product + half);
-    const int64_t rounded = (by == 1) ? beyond : (beyond / by); /* counts need no division */
-    const int64_t way     = reversed ? -rounded : rounded;
-    const int64_t up      = (way > MOST_I32) ? MOST_I32 : way;
+    const int64_t  product = (int64_t)x * (int64_t)num;
+    const uint32_t half    = den / 2U;
+    const int64_t  away    = (product < 0) ? -(int64_t)half : (int64_t)half;
+    const int64_t  by      = (int64_t)den;
+    const int64_t  beyond  = product + away;
+    const int64_t  rounded = (by == 1) ? beyond : (beyond / by); /* counts need no division */
+    const int64_t  way     = reversed ? -rounded : rounded;
+    const int64_t  up      = (way > MOST_I32) ? MOST_I32 : way;
 
     return (int32_t)((up < -MOST_I32) ? -MOST_I32 : up);
 }
 
 int32_t app_units_cnt(const app_units_scale_t *s, int32_t units)
 {
-    return scaled(units, s->num, s->den, s->reversed);
+    return rescaled(units, s->num, s->den, s->reversed);
 }
 
 int32_t app_units_of(const app_units_scale_t *s, int32_t counts)
 {
-    return scaled(counts, s->den, s->num, s->reversed);
+    return rescaled(counts, s->den, s->num, s->reversed);
 }
 
 static bool is_near(const app_units_scale_t *s, int32_t units)
@@ -88,7 +89,7 @@ bool app_units_fit(const app_units_scale_t *s, const app_units_positions_t *p)
 
 uint32_t app_units_window_cnt(const app_units_scale_t *s, uint32_t units)
 {
-    const int32_t counts = scaled((int32_t)units, s->num, s->den, false);
+    const int32_t counts = rescaled((int32_t)units, s->num, s->den, false);
 
     return ((counts == 0) && (units > 0U)) ? 1U : (uint32_t)counts;
 }
