@@ -76,12 +76,13 @@ void read_torque_if(TomlReader &t, Drive &drive)
         return;
     }
     if (!takes_torque(drive)) {
-        t.fail("[torque]",
-               "is not allowed: only law noc with [nodo] form = \"encoder\" follows a torque");
+        t.fail(
+            "[torque]",
+            "is not allowed: only pi_foc, and noc with [nodo] form = \"encoder\", follow a torque");
     }
     constexpr Range acts{input_weight.lo, state_weight.hi}; // without it nothing holds a current
     drive.torque.emplace();
-    if (section->has("Q") || section->has("T")) {
+    if (drive.law == Law::noc && (section->has("Q") || section->has("T"))) {
         TorqueWeights w;
         w.Q                   = last_of<2>(section->numbers("Q", {2}, acts));
         w.T                   = last_of<2>(section->numbers("T", {2}, input_weight));
@@ -311,6 +312,7 @@ void read_law_sections(TomlReader &t, Drive &drive)
     }
     if (is_cascade(drive.law)) {
         drive.cascade = read_cascade(t.table(law_name(drive.law)), drive.law);
+        read_torque_if(t, drive);
         return;
     }
     drive.d_axis = read_d_axis(t.table("d_axis"));
@@ -334,7 +336,8 @@ bool takes_positions(Law law)
 
 bool takes_torque(const Drive &drive)
 {
-    return drive.law == Law::noc && drive.nodo.form == NodoForm::encoder;
+    return drive.law == Law::pi_foc ||
+           (drive.law == Law::noc && drive.nodo.form == NodoForm::encoder);
 }
 
 bool is_cascade(Law law)

@@ -8,6 +8,7 @@
 
 #include "design/foc/foc_design.hpp"
 #include "design/foc/foc_loop.hpp"
+#include "design/torque.hpp"
 
 namespace {
 
@@ -21,7 +22,8 @@ Drive shipped(const std::string &name)
                            name + ".toml");
 }
 
-const std::vector<std::string> names{"pi_foc", "pi_foc_edges", "ladrc", "ladrc_edges"};
+const std::vector<std::string> names{"pi_foc", "pi_foc_edges", "ladrc", "ladrc_edges",
+                                     "pi_foc_torque"};
 
 /// Speed, iq, id, angle by EQ-MOTOR-2 over one period with the voltage held, Runge-Kutta in steps of 10 us.
 struct MotorSim {
@@ -49,17 +51,25 @@ struct MotorSim {
     }
 };
 
-/// Speeds of the firmware's law on that motor, from rest at a speed and load; one volt more on q in one period.
-std::vector<double> firmware_speeds(const Design &d, double speed, double load, double extra_V,
-                                    bool timed)
+/// More voltage on q in one period, or more speed where that period begins.
+struct Kick {
+    double vq_V          = 0.0;
+    double omega_e_radps = 0.0;
+};
+
+/// Speeds of the firmware's law on that motor, from rest at a speed and load, from the kick on.
+std::vector<double> firmware_speeds(const Design &d, const ReducedParameters &l, double speed,
+                                    double load, const Kick &kick, bool timed,
+                                    const torque_command_t *torque = nullptr)
 {
+    const law_aim_t     aim{nullptr, torque};
     const int           settle = 3000, watched = 60;
     const double        ts = control_period_s(d.drive);
     drive_sample_t      sample{};
     law_state_t         state{};
     law_output_t        out{};
     dq_t                now{0.0F, 0.0F};
-    MotorSim            m{d.l, load};
+    MotorSim            m{l, load};
     std::vector<double> speeds;
     m.x              = {speed, 0.0, 0.0, 0.0};
     sample.dc_link_V = 1e4F; // no limit
@@ -79,16 +89,35 @@ std::vector<double> firmware_speeds(const Design &d, double speed, double load, 
         if (k == 0) {
             d.config.law->reset(&state, &d.config, &sample);
         }
-        const law_input_t in{&sample, static_cast<float>(speed), nullptr, now, 0.0F};
+        const law_input_t in{&sample, static_cast<float>(speed), torque != nullptr ? &aim : nullptr,
+                             now, 0.0F};
         d.config.law->step(&state, &d.config, &in, &out);
+        m.x(0) += k == settle ? kick.omega_e_radps : 0.0;
         if (k >= settle) {
             speeds.push_back(m.x(0));
         }
-        const double extra = k == settle ? extra_V : 0.0;
+        const double extra = k == settle ? kick.vq_V : 0.0;
         m.period(static_cast<double>(now.q) + extra, static_cast<double>(now.d));
         now = out.v_V;
     }
     return speeds;
+}
+
+/// The difference of two runs against the response of the loop's matrix to this state.
+struct Deviation {
+    double worst = 0.0, peak = 0.0;
+};
+
+Deviation deviation(const BrokenLoop &loop, Eigen::VectorXd s, const std::vector<double> &with,
+                    const std::vector<double> &less)
+{
+    Deviation d;
+    for (std::size_t k = 0; k < with.size(); k++) {
+        d.worst = std::max(d.worst, std::abs(with[k] - less[k] - s(0)));
+        d.peak  = std::max(d.peak, std::abs(s(0)));
+        s       = loop.A * s;
+    }
+    return d;
 }
 
 } // namespace
@@ -165,20 +194,68 @@ TEST(FocDesign, CertifiedLoopIsTheFirmwareOnTheMotor)
                 const auto       mode = timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
                 const BrokenLoop loop =
                     foc_loops(x, x.drive.motor, {speed, iq, mtpa_id_A(x.l, iq)}, mode)[1];
-                const auto with = firmware_speeds(x, speed, load, 5.0, timed);
-                const auto less = firmware_speeds(x, speed, load, -5.0, timed);
+                const auto with = firmware_speeds(x, x.l, speed, load, {5.0, 0.0}, timed);
+                const auto less = firmware_speeds(x, x.l, speed, load, {-5.0, 0.0}, timed);
 
-                Eigen::VectorXd s     = 10.0 * loop.B;
-                double          worst = 0.0, peak = 0.0;
-                for (std::size_t k = 0; k < with.size(); k++) {
-                    worst = std::max(worst, std::abs(with[k] - less[k] - s(0)));
-                    peak  = std::max(peak, std::abs(s(0)));
-                    s     = loop.A * s;
-                }
-                EXPECT_LE(worst, 0.02 * peak) << name << (timed ? " timed" : "") << " " << load;
+                const Deviation off = deviation(loop, 10.0 * loop.B, with, less);
+                EXPECT_LE(off.worst, 0.02 * off.peak)
+                    << name << (timed ? " timed" : "") << " " << load;
             }
         }
     }
+}
+
+/// The same of runs to a torque: with a free shaft, and at the speed limit.
+TEST(FocDesign, CertifiedTorqueLoopsAreTheFirmwareOnTheMotor)
+{
+    Drive drive = shipped("pi_foc_torque");
+    for (const double observer : {0.0, 300.0}) {
+        drive.cascade.load_observer_radps = observer;
+        const Design x                    = design_drive(drive);
+        const auto  &c                    = *constants_of<law_pi_foc_config_t>(x.config);
+        ASSERT_TRUE(x.config.torques);
+        EXPECT_TRUE(x.certificate.passed());
+        for (const bool timed : {false, true}) {
+            for (const bool limited : {false, true}) {
+                const auto   mode  = timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
+                const double speed = 200.0, accel = 5000.0; // of 0.7 of the rated torque
+                const Motor  motor = limited ? drive.motor : with_load_of_its_own(drive.motor);
+                const auto   l     = reduced_parameters(motor);
+                const double load  = accel - l[2] * speed;
+                const double left  = (observer > 0.0 ? l[2] * speed : accel) /
+                                    static_cast<double>(c.gains[mode].kp_1ps);
+                torque_command_t command{static_cast<float>(accel / (l[3] * 1.5)), 1000.0F};
+                if (limited) {
+                    command = {1.2F, static_cast<float>(speed + left)};
+                }
+                double iq = 0.0;
+                for (int i = 0; i < 60; i++) {
+                    iq = accel / (l[1] + l[11] * mtpa_id_A(x.l, iq));
+                }
+                const BrokenLoop loop =
+                    foc_loops(x, drive.motor, {speed, iq, mtpa_id_A(x.l, iq)}, mode,
+                              limited ? FocRun::limit : FocRun::torque)[1];
+                EXPECT_EQ(loop.shaft_mode > 0.0, !limited);
+                const auto run = [&](const Kick &kick) {
+                    return firmware_speeds(x, l, speed, load, kick, timed, &command);
+                };
+                const Deviation by_V =
+                    deviation(loop, 10.0 * loop.B, run({5.0, 0.0}), run({-5.0, 0.0}));
+                const Deviation by_w = deviation(loop, Eigen::VectorXd::Unit(loop.A.rows(), 0),
+                                                 run({0.0, 0.5}), run({0.0, -0.5}));
+                EXPECT_LE(by_V.worst, 0.02 * by_V.peak) << observer << timed << limited;
+                EXPECT_LE(by_w.worst, 0.02 * by_w.peak) << observer << timed << limited;
+            }
+        }
+    }
+}
+
+TEST(FocDesign, TheCertificateHasTheLoopsOfATorque)
+{
+    Drive drive = shipped("pi_foc_torque");
+    EXPECT_EQ(foc_family(design_drive(drive)).loops(drive.motor, {200.0, 1.0, -0.2}).size(), 18U);
+    drive.torque.reset();
+    EXPECT_EQ(foc_family(design_drive(drive)).loops(drive.motor, {200.0, 1.0, -0.2}).size(), 6U);
 }
 
 TEST(FocDesign, LadrcHasADoubleObserverPole)

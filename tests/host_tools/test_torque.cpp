@@ -118,9 +118,10 @@ TEST(Torque, TheCertificateHasItsLoops)
 
 TEST(Torque, FilesThatCannotBeAreRefused)
 {
-    expect_refused("\n[torque]\n", "ipmsm_390w_speed", "only law noc");
-    expect_refused("\n[torque]\n", "ipmsm_390w_noc_h", "only law noc");
-    expect_refused("\n[torque]\n", "ipmsm_390w_pi_foc", "torque");
+    expect_refused("\n[torque]\n", "ipmsm_390w_speed", "only pi_foc, and noc");
+    expect_refused("\n[torque]\n", "ipmsm_390w_noc_h", "only pi_foc, and noc");
+    expect_refused("\n[torque]\n", "ipmsm_390w_ladrc", "only pi_foc, and noc");
+    expect_refused("\n[torque]\nQ = [1.0, 1.0]\n", "ipmsm_390w_pi_foc", "Q");
     expect_refused("\n[torque]\nQ = [1.0, 1.0]\n", "ipmsm_390w", "T");
     expect_refused("\n[torque]\nQ = [0.0, 1.0]\nT = [1.0, 1.0]\n", "ipmsm_390w", "Q");
     expect_refused("\n[torque]\nP = 1.0\n", "ipmsm_390w", "P");

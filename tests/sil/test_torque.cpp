@@ -23,8 +23,13 @@ constexpr double dc_link_V    = 295.0;
 struct Rate {
     const char *drive;
     double      tenth_s, ts_s;
+    double      of_bound = 1.2; ///< largest time of a large step over the least, beside 1.5 periods
+    int         seeds    = 20;
 };
 constexpr Rate rates[] = {{"ipmsm_390w", 0.8e-3, 200e-6}, {"ipmsm_390w_10khz", 0.5e-3, 100e-6}};
+// pi_foc has wider bounds; docs/results.md has what it reaches.
+constexpr Rate rivals[] = {{"ipmsm_390w_pi_foc_torque", 0.9e-3, 200e-6, 1.3, 4},
+                           {"ipmsm_390w_pi_foc_torque_10khz", 0.5e-3, 100e-6, 1.3, 4}};
 
 sdre::Scenario scenario(const std::string &drive = "ipmsm_390w")
 {
@@ -67,39 +72,53 @@ double mean_torque_Nm(const sdre::Trace &trace, double from_s, double to_s)
     return sum / n;
 }
 
-} // namespace
-
 /// Seeds, rotor angles and discs that no search saw.
-TEST(TorqueRun, StepsOnTheBoard)
+void expect_steps(const Rate &rate)
 {
     const std::array<double, 3> discs[] = {{0.14, 0.14, 0.02}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}};
-    for (const Rate &rate : rates) {
-        for (const auto &[quadrature, duty, jitter] : discs) {
-            for (std::uint64_t seed = 1; seed <= 20; seed++) {
-                sdre::Scenario s                            = scenario(rate.drive);
-                s.seed                                      = seed;
-                s.sensors.encoder_disc.quadrature_error_cnt = quadrature;
-                s.sensors.encoder_disc.duty_error_cnt       = duty;
-                s.sensors.encoder_disc.jitter_rms_cnt       = jitter;
-                const auto   run                            = sdre::simulate(s);
-                const auto   found                          = sdre::measure(s, run.trace);
-                const auto   of = [&](int i) { return *found[static_cast<std::size_t>(i)].torque; };
-                const double late_s = 1.5 * rate.ts_s;
-                ASSERT_EQ(run.fault, 0) << rate.drive << " " << seed;
-                EXPECT_LE(of(0).error_percent, 0.3) << rate.drive << " " << seed; // zero torque
-                EXPECT_LE(*of(1).rise_s, rate.tenth_s) << rate.drive << " " << seed;
-                EXPECT_LE(*of(2).rise_s, 1.2 * bound_s(s.drive, half_e_radps, 0.15, 1.5) + late_s)
-                    << rate.drive << " " << seed;
-                EXPECT_LE(*of(3).rise_s, 1.2 * bound_s(s.drive, half_e_radps, 1.5, -1.5) + late_s)
-                    << rate.drive << " " << seed;
-                EXPECT_LE(*of(2).overshoot_percent, 5.0) << rate.drive << " " << seed;
-                EXPECT_LE(*of(3).overshoot_percent, 5.0) << rate.drive << " " << seed;
-                for (int i = 0; i < 5; i++) {
-                    EXPECT_LE(of(i).error_percent, 1.0) << rate.drive << " " << seed << " " << i;
-                    EXPECT_LE(of(i).ripple_percent, 0.5) << rate.drive << " " << seed << " " << i;
-                }
+    for (const auto &[quadrature, duty, jitter] : discs) {
+        for (int seed = 1; seed <= rate.seeds; seed++) {
+            sdre::Scenario s                            = scenario(rate.drive);
+            s.seed                                      = static_cast<std::uint64_t>(seed);
+            s.sensors.encoder_disc.quadrature_error_cnt = quadrature;
+            s.sensors.encoder_disc.duty_error_cnt       = duty;
+            s.sensors.encoder_disc.jitter_rms_cnt       = jitter;
+            const auto   run                            = sdre::simulate(s);
+            const auto   found                          = sdre::measure(s, run.trace);
+            const auto   of     = [&](int i) { return *found[static_cast<std::size_t>(i)].torque; };
+            const double late_s = 1.5 * rate.ts_s;
+            ASSERT_EQ(run.fault, 0) << rate.drive << " " << seed;
+            EXPECT_LE(of(0).error_percent, 0.3) << rate.drive << " " << seed; // zero torque
+            EXPECT_LE(*of(1).rise_s, rate.tenth_s) << rate.drive << " " << seed;
+            EXPECT_LE(*of(2).rise_s,
+                      rate.of_bound * bound_s(s.drive, half_e_radps, 0.15, 1.5) + late_s)
+                << rate.drive << " " << seed;
+            EXPECT_LE(*of(3).rise_s,
+                      rate.of_bound * bound_s(s.drive, half_e_radps, 1.5, -1.5) + late_s)
+                << rate.drive << " " << seed;
+            EXPECT_LE(*of(2).overshoot_percent, 5.0) << rate.drive << " " << seed;
+            EXPECT_LE(*of(3).overshoot_percent, 5.0) << rate.drive << " " << seed;
+            for (int i = 0; i < 5; i++) {
+                EXPECT_LE(of(i).error_percent, 1.0) << rate.drive << " " << seed << " " << i;
+                EXPECT_LE(of(i).ripple_percent, 0.5) << rate.drive << " " << seed << " " << i;
             }
         }
+    }
+}
+
+} // namespace
+
+TEST(TorqueRun, StepsOnTheBoard)
+{
+    for (const Rate &rate : rates) {
+        expect_steps(rate);
+    }
+}
+
+TEST(TorqueRun, StepsOfPiFocOnTheBoard)
+{
+    for (const Rate &rate : rivals) {
+        expect_steps(rate);
     }
 }
 
@@ -222,6 +241,19 @@ TEST(TorqueRun, HandOverHasNoBump)
     }
 }
 
+/// The watch of the motion does not take a shaft that gains speed at the current limit for one that a load carries off.
+TEST(TorqueRun, AccelerationAtTheCurrentLimitIsNoFault)
+{
+    for (const char *drive : {"ipmsm_390w", "ipmsm_390w_pi_foc_torque"}) {
+        sdre::Scenario s = ideal(drive, 0.0, {{0.05, 9.0}});
+        s.load_torque    = {{0.05, 2.65}}; // of 2.8
+        s.duration_s     = 0.6;
+        const auto run   = sdre::simulate(s);
+        EXPECT_EQ(run.fault, 0) << drive;
+        EXPECT_GT(run.trace.back().omega_e_radps, 300.0) << drive;
+    }
+}
+
 namespace {
 
 /// Torque over its command at a frequency, of a small sine at half of the rated speed.
@@ -271,8 +303,25 @@ TEST(TorqueRun, TheSweptSineHasTheDelayAndNothingElse)
     }
 }
 
+/// Pole cancellation leaves an integrator with a period of delay: H = b / (z^2 - z + b), b = w_b Ts.
+TEST(TorqueRun, TheSweptSineOfPiFocIsThatOfItsBandwidth)
+{
+    const double turn = 2.0 * std::acos(-1.0);
+    for (const Rate &rate : rivals) {
+        const double b = turn * scenario(rate.drive).drive.cascade.current_bandwidth_Hz * rate.ts_s;
+        for (const double share : {0.02, 0.05, 0.08, 0.1, 0.15, 0.2}) {
+            const auto h = response(rate, share / rate.ts_s);
+            const auto z = std::polar(1.0, turn * share);
+            EXPECT_NEAR(std::abs(h - b / (z * z - z + b)), 0.0, 0.02) << rate.drive << " " << share;
+        }
+        EXPECT_NEAR(std::arg(response(rate, 0.089 / rate.ts_s)), -0.25 * turn, 0.02) << rate.drive;
+        EXPECT_NEAR(std::abs(response(rate, 0.1665 / rate.ts_s)), std::sqrt(0.5), 0.01)
+            << rate.drive;
+    }
+}
+
 TEST(TorqueRun, ADriveWithoutTorquesIsRefused)
 {
     EXPECT_THROW(scenario("ipmsm_390w_noc_h"), sdre::InputError);
-    EXPECT_THROW(scenario("ipmsm_390w_pi_foc_edges"), sdre::InputError);
+    EXPECT_THROW(scenario("ipmsm_390w_ladrc_edges"), sdre::InputError);
 }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+#include <stddef.h>
+
 #include "check.h"
 #include "laws.h"
 
@@ -30,6 +32,37 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     s->sum_e_radps2 = 0.0f;
 }
 
+/* EQ-PI-FOC-6, before z_f is taken off: what is not a number then stays so. */
+static float torque_e_radps2(const law_pi_foc_state_t *s, const law_pi_foc_gains_t *g,
+                             const drive_config_t *drive, const torque_command_t *command,
+                             float omega_e_radps)
+{
+    const float most  = command->speed_max_e_radps;
+    const float asked = command->share * drive->rated_torque_Nm * drive->motor.l3;
+
+    return base_clamp(asked + s->load.z_f_e_radps2, -g->kp_1ps * (most + omega_e_radps),
+                      g->kp_1ps * (most - omega_e_radps));
+}
+
+static void speed_follows_command(law_pi_foc_state_t *s, const law_pi_foc_gains_t *g,
+                                  float command_e_radps, float p_e_radps2)
+{
+    if (p_e_radps2 * s->foc.limit <= 0.0f) { /* EQ-PI-FOC-3 */
+        s->sum_e_radps2 += g->ki_per_kp * p_e_radps2;
+    }
+    s->r_e_radps += g->ki_per_kp * (command_e_radps - s->r_e_radps); /* EQ-PI-FOC-1 */
+}
+
+/* A speed run that begins here has this torque. */
+static void speed_follows_torque(law_pi_foc_state_t *s, const motor_reduced_t *m,
+                                 float omega_e_radps)
+{
+    const dq_t i_A = s->foc.i_ref_A;
+
+    s->r_e_radps    = omega_e_radps;
+    s->sum_e_radps2 = ((m->l1 + (m->l11 * i_A.d)) * i_A.q) + s->load.z_f_e_radps2;
+}
+
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
                  law_output_t *out)
 {
@@ -41,16 +74,22 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
         &s->speed, &c->speed, in->sample, drive->ts_s, &y.omega_e_radps)];
     speed_observer_update(&s->load, &g->load, &drive->motor, &y, drive->ts_s);
 
-    const float p_e_radps2 = g->kp_1ps * (s->r_e_radps - y.omega_e_radps);
+    const torque_command_t *torque = (in->aim == NULL) ? NULL : in->aim->torque;
+
+    const float w          = y.omega_e_radps;
+    const float p_e_radps2 = g->kp_1ps * (s->r_e_radps - w);
+    const float wish       = (torque == NULL) ? (p_e_radps2 + s->sum_e_radps2) /* EQ-PI-FOC-2 */
+                                              : torque_e_radps2(s, g, drive, torque, w);
 
     foc_realise(&s->foc, &c->foc, in);
-    foc_answer(&s->foc, &c->foc, drive, in, &y,
-               (p_e_radps2 + s->sum_e_radps2) - s->load.z_f_e_radps2, out); /* EQ-PI-FOC-2, 5 */
+    foc_answer(&s->foc, &c->foc, drive, in, &y, wish - s->load.z_f_e_radps2, out); /* EQ-PI-FOC-5 */
     out->d_omega = s->load.z_f_e_radps2;
-    if (p_e_radps2 * s->foc.limit <= 0.0f) { /* EQ-PI-FOC-3 */
-        s->sum_e_radps2 += g->ki_per_kp * p_e_radps2;
+    if (torque == NULL) {
+        speed_follows_command(s, g, in->command_e_radps, p_e_radps2);
+    } else {
+        speed_follows_torque(s, &drive->motor, w);
+        out->profile_e_radps = w;
     }
-    s->r_e_radps += g->ki_per_kp * (in->command_e_radps - s->r_e_radps); /* EQ-PI-FOC-1 */
 }
 
 static bool counts_ok(const drive_config_t *drive)
@@ -65,5 +104,6 @@ const law_t law_pi_foc = {.check           = check,
                           .step            = step,
                           .counts_ok       = counts_ok,
                           .fields          = law_pi_foc_fields,
+                          .takes_torque    = true,
                           .number          = 7U,
                           .constants_chars = (uint32_t)sizeof(law_pi_foc_config_t)};

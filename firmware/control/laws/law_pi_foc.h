@@ -7,6 +7,7 @@
  *     a = k_p e + s,  e = r - w                                                  EQ-PI-FOC-2
  *     s(k+1) = s + k_i e, or s if the current limit acts towards e               EQ-PI-FOC-3
  *     a = k_p e + s - z_f                                                        EQ-PI-FOC-5
+ *     a = T np / J + z_f within -k_p (w_max + w) .. k_p (w_max - w), - z_f       EQ-PI-FOC-6
  *
  * EQ-PI-FOC-1 acts against the overshoot. Here a is the acceleration requested of the motor's
  * torque. The sum s holds the load torque even after a long time at the limit. With
@@ -15,6 +16,9 @@
  *
  * With a load observer (speed_observer.h) its estimate z_f is fed forward, EQ-PI-FOC-5 in place of
  * 2. Gains of zero switch it off: z_f then stays zero.
+ *
+ * A torque run skips the speed loop. EQ-PI-FOC-6 is the torque T within the speed limit w_max, a P
+ * of the speed. Without a load observer the speed stays load / k_p off the limit.
  */
 #ifndef LAW_PI_FOC_H
 #define LAW_PI_FOC_H

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "design/foc/foc_design.hpp"
+#include "design/torque.hpp"
 
 namespace sdre {
 namespace {
@@ -87,6 +88,18 @@ SpeedLaw pi_law(const law_pi_foc_gains_t &c, const RowVectorXd &speed, const Row
     return law;
 }
 
+/// The sum is not used. A torque is constant, and its speed limit is a P of the speed.
+SpeedLaw torque_law(SpeedLaw law, const law_pi_foc_gains_t &c, const RowVectorXd &speed, FocRun run)
+{
+    const Index       n = speed.size();
+    const RowVectorXd zf =
+        law.next.rows() > 1 ? RowVectorXd(law.next.row(1)) : RowVectorXd::Zero(n);
+    law.next.bottomRows(1).setZero();
+    law.accel = run == FocRun::limit ? RowVectorXd(-wide(c.kp_1ps) * speed - zf)
+                                     : RowVectorXd::Zero(n); // EQ-PI-FOC-6
+    return law;
+}
+
 /// States: those of the observer, in the last columns.
 SpeedLaw ladrc_law(const law_ladrc_gains_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
                    double ts_s)
@@ -109,8 +122,20 @@ struct Signals {
     double      bend = 0.0; ///< of id_ref over iq_ref
 };
 
-Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode, Index n,
-                Index steps)
+SpeedLaw speed_law(const Design &d, speed_difference_mode_t mode, FocRun run,
+                   const RowVectorXd &speed, const RowVectorXd &torque)
+{
+    const double ts = control_period_s(d.drive);
+    if (const auto *pi = constants_of<law_pi_foc_config_t>(d.config)) {
+        const auto    &c   = pi->gains[mode];
+        const SpeedLaw law = pi_law(c, speed, torque, ts, has_load_observer(*pi));
+        return run == FocRun::speed ? law : torque_law(law, c, speed, run);
+    }
+    return ladrc_law(constants_of<law_ladrc_config_t>(d.config)->gains[mode], speed, torque, ts);
+}
+
+Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode, FocRun run,
+                Index n, Index steps)
 {
     const Motor        &m     = d.drive.motor;
     const foc_config_t &foc   = *parts_of(d.config).foc;
@@ -122,11 +147,7 @@ Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode
     RowVectorXd       speed  = RowVectorXd::Zero(n); // EQ-SPEED-DIFFERENCE-1
     speed.segment(first_step, steps).setConstant(1.0 / (static_cast<double>(steps) * ts));
 
-    const auto    *pi    = constants_of<law_pi_foc_config_t>(d.config);
-    const auto    *ladrc = constants_of<law_ladrc_config_t>(d.config);
-    const SpeedLaw law   = pi != nullptr
-                               ? pi_law(pi->gains[mode], speed, torque, ts, has_load_observer(*pi))
-                               : ladrc_law(ladrc->gains[mode], speed, torque, ts);
+    const SpeedLaw law = speed_law(d, mode, run, speed, torque);
 
     Signals s;
     s.bend   = -at.iq_A / std::hypot(wide(foc.mtpa_A), at.iq_A);
@@ -146,16 +167,19 @@ Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode
 } // namespace
 
 std::vector<BrokenLoop> foc_loops(const Design &d, const Motor &motor_there,
-                                  const OperatingPoint &at, speed_difference_mode_t mode)
+                                  const OperatingPoint &at, speed_difference_mode_t mode,
+                                  FocRun run)
 {
+    const bool          free  = run == FocRun::torque;
+    const Motor         shaft = free ? with_load_of_its_own(motor_there) : motor_there;
     const double        ts    = control_period_s(d.drive);
     const Parts         parts = parts_of(d.config);
     const foc_config_t &foc   = *parts.foc;
     const Index         steps = speed_periods(d.drive, *parts.speed, mode);
     const Index         n     = first_step + steps + parts.own;
-    const Signals       s     = signals(d, at, mode, n, steps);
+    const Signals       s     = signals(d, at, mode, run, n, steps);
 
-    const auto plant        = held_motor(true_motor(d.drive, motor_there), at, ts);
+    const auto plant        = held_motor(true_motor(d.drive, shaft), at, ts);
     MatrixXd   motor        = MatrixXd::Zero(4, n);
     motor.leftCols(3)       = plant.Phi.leftCols(3);
     motor.middleCols(vq, 2) = plant.Gamma.leftCols(2);
@@ -181,9 +205,10 @@ std::vector<BrokenLoop> foc_loops(const Design &d, const Motor &motor_there,
     on_current(sum_q)     = wide(foc.q.ki_tick);
     on_current(sum_d)     = wide(foc.d.ki_tick) * s.bend;
     on_current(id_before) = s.bend;
-    return {{A, on_current, s.iq_ref, ts},
-            {A, VectorXd::Unit(n, vq), s.u_q, ts},
-            {A, VectorXd::Unit(n, vd), s.u_d, ts}};
+    const double own      = free ? shaft_mode(motor_there, ts) : 0.0;
+    return {{A, on_current, s.iq_ref, ts, own},
+            {A, VectorXd::Unit(n, vq), s.u_q, ts, own},
+            {A, VectorXd::Unit(n, vd), s.u_d, ts, own}};
 }
 
 LoopFamily foc_family(const Design &d)
@@ -192,10 +217,20 @@ LoopFamily foc_family(const Design &d)
     family.channels = {"speed loop", "q axis", "d axis"};
     family.points   = verdict_points(d);
     family.loops    = [&d](const Motor &motor, const OperatingPoint &at) {
-        auto all = foc_loops(d, motor, at, SPEED_DIFFERENCE_COUNTED);
+        std::vector<BrokenLoop>              all;
+        std::vector<FocRun>                  runs{FocRun::speed};
+        std::vector<speed_difference_mode_t> modes{SPEED_DIFFERENCE_COUNTED};
+        if (d.config.torques) {
+            runs.insert(runs.end(), {FocRun::torque, FocRun::limit});
+        }
         if (d.drive.encoder.edge_times) {
-            const auto timed = foc_loops(d, motor, at, SPEED_DIFFERENCE_TIMED);
-            all.insert(all.end(), timed.begin(), timed.end());
+            modes.push_back(SPEED_DIFFERENCE_TIMED);
+        }
+        for (const FocRun run : runs) {
+            for (const speed_difference_mode_t mode : modes) {
+                const auto loops = foc_loops(d, motor, at, mode, run);
+                all.insert(all.end(), loops.begin(), loops.end());
+            }
         }
         return all;
     };

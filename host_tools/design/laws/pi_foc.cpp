@@ -44,7 +44,7 @@ void solve(Design &d)
 
 std::string summary(const Design &d)
 {
-    return cascade_summary(d, "EQ-FOC-1 to 8, EQ-PI-FOC-1 to 5");
+    return cascade_summary(d, "EQ-FOC-1 to 8, EQ-PI-FOC-1 to 6");
 }
 
 std::vector<std::string> mismatches(const Design &)
@@ -89,7 +89,10 @@ const LawDesign pi_foc_design = [] {
     const RivalKey load{"load_observer_radps", &CascadeSpec::load_observer_radps, 0.3 * start_1ps};
     d.rival = RivalLaw{"pi_foc",
                        true,
-                       [](Drive &drive) { drive.law = Law::pi_foc; },
+                       [](Drive &drive) {
+                           drive.law = Law::pi_foc;
+                           drive.torque.reset();
+                       },
                        {{bandwidth, optimum}, {bandwidth, optimum, load}}};
     return d;
 }();

@@ -154,6 +154,81 @@ static void test_load_is_observed_and_fed_forward(void)
     }
 }
 
+/* Torque of references: 1.5 np (flux + (Ld - Lq) id) iq; the law divides by the previous id. */
+static double torque_of_Nm(dq_t ref_A, double id_before_A)
+{
+    return 1.5 * 2.0 * (0.193 + ((0.07498 - 0.11391) * id_before_A)) * (double)ref_A.q;
+}
+
+/* The command's share of the rated 1.5 N m, whatever the speed, its reference and the load. */
+static void test_a_torque_is_what_the_references_make(void)
+{
+    for (int k = -5; k <= 5; k++) {
+        const torque_command_t command = {.share = 0.2f * (float)k, .speed_max_e_radps = 1000.0f};
+        const law_aim_t        aim     = {.torque = &command};
+
+        setUp();
+        in.aim               = &aim;
+        s->load.z_f_e_radps2 = 700.0f; /* kept: the observer has no gains */
+        for (int i = 0; i < 20; i++) {
+            const double       before_A = (double)s->foc.i_ref_A.d;
+            const law_output_t out      = law_answer(&drive, &state, &in);
+
+            TEST_ASSERT_DOUBLE_WITHIN(2.0e-4, 0.3 * (double)k, torque_of_Nm(out.i_ref_A, before_A));
+            TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, s->r_e_radps, out.now.omega_e_radps);
+            TEST_ASSERT_TRUE(out.profile_e_radps == out.now.omega_e_radps); /* motion_watch.h */
+            sample.theta_e_rad = frames_wrap(sample.theta_e_rad + (200.0f * drive.ts_s));
+        }
+    }
+}
+
+/* At 200 rad/s with 1 rad/s to the limit: a P of it, less the load that the observer knows. Either way. */
+static void test_the_speed_limit_takes_torque_away(void)
+{
+    const double per_Nm = 1.0 / (0.00042 / 2.0); /* rad/s^2 per N m */
+
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (int left = -3; left <= 3; left++) {
+            const torque_command_t command = {.share             = (float)sign,
+                                              .speed_max_e_radps = 200.0f + (float)left};
+            const law_aim_t        aim     = {.torque = &command};
+
+            setUp();
+            in.aim               = &aim;
+            sample.omega_e_radps = (float)sign * 200.0f;
+            sample.edge_gap_s    = 2.0e-4f; /* the sample's speed is used */
+            drive.law->reset(&state, &drive, &sample);
+            s->load.z_f_e_radps2    = (float)sign * -400.0f; /* kept: the observer has no gains */
+            const law_output_t out  = law_answer(&drive, &state, &in);
+            const double       most = ((900.0 * (double)left) + 400.0) / per_Nm;
+
+            TEST_ASSERT_DOUBLE_WITHIN(1.0e-3, (double)sign * fmin(most, 1.5),
+                                      torque_of_Nm(out.i_ref_A, 0.0));
+        }
+    }
+}
+
+/* A speed run at the shaft's speed goes on with the torque, and a torque run with that of a speed run. */
+static void test_runs_change_without_a_bump(void)
+{
+    const torque_command_t command = {.share = 0.4f, .speed_max_e_radps = 1000.0f};
+    const law_aim_t        aim     = {.torque = &command};
+
+    in.aim               = &aim;
+    s->load.z_f_e_radps2 = -700.0f; /* kept: the observer has no gains */
+    (void)wanted_after(50);
+    const float torque_A = s->foc.i_ref_A.q;
+    in.aim               = NULL;
+    in.command_e_radps   = s->r_e_radps;
+    for (int k = 0; k < 20; k++) {
+        (void)wanted_after(1);
+        TEST_ASSERT_FLOAT_WITHIN(2.0e-3f, torque_A, s->foc.i_ref_A.q);
+    }
+    in.aim = &aim;
+    (void)wanted_after(1);
+    TEST_ASSERT_FLOAT_WITHIN(2.0e-3f, torque_A, s->foc.i_ref_A.q);
+}
+
 static void test_mirror_image_gives_the_mirror_image(void)
 {
     law_state_t    mirror;
@@ -214,6 +289,18 @@ static void test_tick_trips_when_the_law_gives_no_number(void)
         TEST_ASSERT_FALSE(drive_tick(&d, &sample, &command).gate_enable);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NUMERIC, d.fault);
     }
+    drive.torques = true;
+    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+        const torque_command_t torque   = {.share = 0.5f, .speed_max_e_radps = 1000.0f};
+        const law_aim_t        aim      = {.torque = &torque};
+        const drive_command_t  a_torque = {.aim = &aim, .run = true};
+
+        (void)drive_init(&d, &drive);
+        TEST_ASSERT_TRUE(drive_tick(&d, &sample, &a_torque).gate_enable);
+        d.law.pi_foc.load.z_f_e_radps2 = support_not_finite[k];
+        TEST_ASSERT_FALSE(drive_tick(&d, &sample, &a_torque).gate_enable);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NUMERIC, d.fault);
+    }
 }
 
 int main(void)
@@ -223,6 +310,9 @@ int main(void)
     RUN_TEST(test_gains_are_those_of_the_measurement);
     RUN_TEST(test_sum_rests_at_the_limit);
     RUN_TEST(test_load_is_observed_and_fed_forward);
+    RUN_TEST(test_a_torque_is_what_the_references_make);
+    RUN_TEST(test_the_speed_limit_takes_torque_away);
+    RUN_TEST(test_runs_change_without_a_bump);
     RUN_TEST(test_mirror_image_gives_the_mirror_image);
     RUN_TEST(test_check_wants_every_constant);
     RUN_TEST(test_tick_trips_when_the_law_gives_no_number);
