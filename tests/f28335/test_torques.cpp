@@ -96,7 +96,7 @@ TEST_F(Torques, TheSpeedLimitHoldsAndGivesBackInAllFourQuadrants)
 {
     const double limit_rpm = 1000.0;
     enable(APP_CONTROL_PROFILE_TORQUE);
-    ASSERT_TRUE(write_two(APP_REGISTERS_TORQUE_SPEED_MAX, static_cast<int>(10.0 * limit_rpm)));
+    ASSERT_TRUE(write_two(APP_REGISTERS_TORQUE_SPEED_MAX, static_cast<int>(limit_rpm)));
     ASSERT_TRUE(
         write_two(APP_REGISTERS_TORQUE_SLOPE, 10000)); // ten times the rated torque in a second
     for (const int share : {300, -300, 300}) { // motors, then brakes and turns, then both again
@@ -110,13 +110,48 @@ TEST_F(Torques, TheSpeedLimitHoldsAndGivesBackInAllFourQuadrants)
         ASSERT_LT(std::abs(p.omega_e_radps) * rpm_per_e_radps, 1.02 * limit_rpm) << p.time_s;
     }
     served.dynamometer().drive(0.45); // what is commanded: the torque is there again, at any speed
-    ASSERT_TRUE(write_two(APP_REGISTERS_TORQUE_SPEED_MAX, static_cast<int>(20.0 * limit_rpm)));
+    ASSERT_TRUE(write_two(APP_REGISTERS_TORQUE_SPEED_MAX, static_cast<int>(2.0 * limit_rpm)));
     talk(0.3);
     EXPECT_TRUE(has(APP_REGISTERS_REACHED));
     EXPECT_NEAR(mean_Nm(served.time_s() - window_s), 0.45, 0.01 * rated_Nm);
     EXPECT_NEAR(actual(APP_REGISTERS_TORQUE_NOW), 300, 10);
     EXPECT_NEAR(actual(APP_REGISTERS_TORQUE_DEMAND), 300, 1);
     EXPECT_TRUE(served.findings().empty());
+}
+
+/// PROFILE_SPEED_MAX (607Fh) counts 0.1 r/min, TORQUE_SPEED_MAX (6080h) whole ones.
+TEST_F(Torques, OneLimitActsInTorquesSpeedsAndPositions)
+{
+    const double limit_rpm = 800.0;
+    enable(APP_CONTROL_PROFILE_TORQUE);
+    set_ramp(2000);
+    ASSERT_TRUE(write_two(APP_REGISTERS_TORQUE_SPEED_MAX, static_cast<int>(1.5 * limit_rpm)));
+    ASSERT_TRUE(write_two(APP_REGISTERS_PROFILE_SPEED_MAX, static_cast<int>(10.0 * limit_rpm)));
+    ASSERT_TRUE(write_one(APP_REGISTERS_TORQUE, 300));
+    talk(0.4);
+    EXPECT_NEAR(speed_e_radps() * rpm_per_e_radps, limit_rpm, 0.01 * limit_rpm);
+
+    ASSERT_TRUE(write_two(APP_REGISTERS_SPEED_RPM, static_cast<int>(-20.0 * limit_rpm)));
+    ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_PROFILE_VELOCITY));
+    talk(0.5);
+    EXPECT_NEAR(speed_e_radps() * rpm_per_e_radps, -limit_rpm, 0.005 * limit_rpm);
+    EXPECT_TRUE(has(APP_REGISTERS_LIMITED));
+    EXPECT_FALSE(has(APP_REGISTERS_REACHED));
+    ASSERT_TRUE(write_two(APP_REGISTERS_SPEED_RPM, 0));
+    talk(0.5);
+    EXPECT_FALSE(has(APP_REGISTERS_LIMITED));
+
+    ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_PROFILE_POSITION));
+    ASSERT_TRUE(write_two(APP_REGISTERS_TARGET_POSITION, 100000)); // ten turns
+    ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD,
+                          APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT));
+    double fastest = 0.0;
+    for (int n = 0; n < 20; n++) {
+        talk(0.05);
+        fastest = std::max(fastest, speed_e_radps());
+    }
+    EXPECT_NEAR(fastest * rpm_per_e_radps, limit_rpm, 0.01 * limit_rpm);
+    EXPECT_TRUE(has(APP_REGISTERS_REACHED));
 }
 
 TEST_F(Torques, TheSlopeIsThatOfProfileTorqueAlone)

@@ -79,7 +79,8 @@ typedef struct app_registers_request {
     app_units_t           units;
     app_units_scale_t     scale; /**< of these units */
     app_units_positions_t positions;
-    uint32_t              window_cnt; /**< counts of its window */
+    uint32_t              window_cnt;         /**< counts of its window */
+    float                 speed_most_e_radps; /**< limit of the commanded speeds; 0: the drive's */
     app_scope_setup_t     scope;
     uint16_t              scope_command; /**< 1 arms, 2 stops */
     uint16_t              modbus_address;
@@ -248,8 +249,11 @@ void app_registers_init_units(app_registers_t *r);
  * @return false: units or positions are out of range. */
 bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *w);
 
-/** The requested command, with its positions in counts. */
+/** The requested command, with its positions in counts and its speeds within PROFILE_SPEED_MAX. */
 void app_registers_command(const app_registers_t *r, app_objects_t *out);
+
+/** True if PROFILE_SPEED_MAX cuts the target of a speed run. */
+bool app_registers_cuts_speed(const app_registers_t *r);
 
 /** Position of the shaft, and of the active set-point [position units]. */
 int32_t app_registers_position(const app_registers_t *r);

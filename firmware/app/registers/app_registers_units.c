@@ -15,6 +15,8 @@ void app_registers_init_units(app_registers_t *r)
     r->requested.scale      = count;
     r->requested.positions  = none;
     r->requested.window_cnt = WINDOW;
+
+    r->requested.speed_most_e_radps = 0.0f;
 }
 
 static bool is_other(const app_units_t *a, const app_units_t *b)
@@ -56,9 +58,30 @@ bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *
     return reduces && app_units_fit(&w->scale, &w->positions);
 }
 
+/* The lower of two limits, either of which may be 0: none. */
+static float lower(float a, float b)
+{
+    return ((a > 0.0f) && ((b <= 0.0f) || (a < b))) ? a : b;
+}
+
+bool app_registers_cuts_speed(const app_registers_t *r)
+{
+    const float most = r->requested.speed_most_e_radps;
+
+    return (most > 0.0f) && app_control_is_speed(r->status.mode_of_operation) &&
+           !base_within(r->requested.objects.omega_e_radps, most);
+}
+
 void app_registers_command(const app_registers_t *r, app_objects_t *out)
 {
+    const float most = r->requested.speed_most_e_radps;
+
     *out = r->requested.objects;
+    if (most > 0.0f) {
+        out->omega_e_radps            = base_clamp(out->omega_e_radps, -most, most);
+        out->profile_e_radps          = lower(out->profile_e_radps, most);
+        out->torque_speed_max_e_radps = lower(out->torque_speed_max_e_radps, most);
+    }
     app_units_apply(&r->requested.scale, &r->requested.positions, out);
 }
 

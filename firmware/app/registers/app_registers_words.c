@@ -192,7 +192,8 @@ uint16_t app_registers_statusword(const app_registers_t *r)
     const app_status_t *s     = &r->status;
     const bool          warns = s->hot || s->dc_link_out || s->tripped || s->without_angle ||
                        (app_registers_lost(r) != 0U) || app_registers_chopper_rests(r);
-    const bool limited = (limits(s) != 0U) || s->held || shows_switch(s);
+    const bool limited =
+        (limits(s) != 0U) || s->held || shows_switch(s) || app_registers_cuts_speed(r);
 
     return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |
                       bit_if(warns, APP_REGISTERS_WARNING) |

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "e2eb98ef"
+DIGEST = "300359b6"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -83,6 +83,7 @@ TARGET: Tuple[Register, ...] = (  # holding
     Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
     Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
     Register("POSITION_WINDOW", 166, "u16", 0.0, "position units"),
+    Register("PROFILE_SPEED_MAX", 167, "u32", 0.1, "r/min"),
 )
 
 TRIM: Tuple[Register, ...] = (  # holding
@@ -94,7 +95,7 @@ TORQUE: Tuple[Register, ...] = (  # holding
     Register("TORQUE_OFFSET", 225, "i16", 0.001, "of RATED_TORQUE"),
     Register("MAX_TORQUE", 226, "u16", 0.001, "of RATED_TORQUE"),
     Register("TORQUE_SLOPE", 227, "u32", 0.001, "of RATED_TORQUE per s"),
-    Register("TORQUE_SPEED_MAX", 229, "u32", 0.1, "r/min"),
+    Register("TORQUE_SPEED_MAX", 229, "u32", 1.0, "r/min"),
     Register("MAX_CURRENT_SHARE", 231, "u16", 0.001, "of RATED_CURRENT"),
 )
 
@@ -343,10 +344,10 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
     Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: the drive's limit"),
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
+    Parameter(BY_NAME["PROFILE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "607Fh", "limit of SPEED, PROFILE_VELOCITY and TORQUE_SPEED_MAX; 0: SPEED_MAX. SPEED is cut to it, with bit 11 of the status word. A set-point of a position keeps the limit of the time when it was taken."),
     Parameter(BY_NAME["SENSOR_TRIM"], 0, 1, 1.0, False, "", "1: learns errors of the current sensors in a run. 0 forgets what was learned: [Current sensors](hardware.md#trim-of-the-current-sensors). The image of noc_h has no room for it: there it is 0."),
     Parameter(BY_NAME["MAX_TORQUE"], 0, 33, 33.0, False, "6072h", "limit of their sum, either way. MAX_CURRENT, heat, the voltage and the speed limit act too."),
     Parameter(BY_NAME["TORQUE_SLOPE"], 0, 1000000.0, 0.0, False, "6087h", "profile torque; 0: a step"),
-    Parameter(BY_NAME["TORQUE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "6080h", "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it."),
     Parameter(BY_NAME["INTERPOLATION_PERIOD"], 0.001, 0.1, 0.01, False, "60C2h", "between two set-points"),
     Parameter(BY_NAME["FOLLOWING_WINDOW"], 0, 1000000000, 0.0, False, "6065h", "cyclic position: largest following error; 0: any"),
     Parameter(BY_NAME["FOLLOWING_TIMEOUT"], 0, 65.535, 0.1, False, "6066h", "beyond the window for longer: fault 16"),

@@ -65,6 +65,7 @@ static void register_types(void)
     IS(app_registers_request_t, scope.signal[2], uint16_t);
     IS(app_registers_request_t, scope.signal[3], uint16_t);
     IS(app_registers_request_t, scope.trigger, uint16_t);
+    IS(app_registers_request_t, speed_most_e_radps, float);
     IS(app_registers_request_t, units.feed, uint32_t);
     IS(app_registers_request_t, units.feed_shaft, uint16_t);
     IS(app_registers_request_t, units.gear_motor, uint16_t);

@@ -67,6 +67,42 @@ static void test_the_command_has_counts(void)
     TEST_ASSERT_TRUE(command().limits && (command().least_cnt == 0) && (command().most_cnt == 8));
 }
 
+#define PER_RPM 0.20943951 /* rad/s electrical of a motor with two pole pairs */
+
+/* 0.1 r/min and whole r/min. The speed of PROFILE_VELOCITY counts 0.1 rad/s. */
+static void test_one_limit_of_all_commanded_speeds(void)
+{
+    const double most = 1000.5 * PER_RPM;
+
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_SPEED_RPM, -15000));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_TORQUE_SPEED_MAX, 1200));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, -1500.0 * PER_RPM, (double)command().omega_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1200.0 * PER_RPM, (double)command().torque_speed_max_e_radps);
+    TEST_ASSERT_TRUE((command().profile_e_radps == 0.0f) && !app_registers_cuts_speed(&registers));
+
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_PROFILE_SPEED_MAX, 10005));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, -most, (double)command().omega_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, most, (double)command().profile_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, most, (double)command().torque_speed_max_e_radps);
+    TEST_ASSERT_EQUAL_INT32(-15000, holding_32(APP_REGISTERS_SPEED_RPM)); /* it stays requested */
+    for (int mode = APP_CONTROL_FIND_ANGLE; mode <= APP_CONTROL_CYCLIC_TORQUE; mode++) {
+        registers.status.mode_of_operation = (int16_t)mode;
+        TEST_ASSERT_EQUAL_INT(app_control_is_speed((int16_t)mode),
+                              app_registers_cuts_speed(&registers));
+        TEST_ASSERT_EQUAL_INT(app_control_is_speed((int16_t)mode) ? APP_REGISTERS_LIMITED : 0,
+                              app_registers_statusword(&registers) & APP_REGISTERS_LIMITED);
+    }
+
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_SPEED_RPM, 10000));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_PROFILE_VELOCITY, 1500));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_TORQUE_SPEED_MAX, 900));
+    registers.status.mode_of_operation = APP_CONTROL_PROFILE_VELOCITY;
+    TEST_ASSERT_FALSE(app_registers_cuts_speed(&registers));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1000.0 * PER_RPM, (double)command().omega_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 150.0, (double)command().profile_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 900.0 * PER_RPM, (double)command().torque_speed_max_e_radps);
+}
+
 static void test_positions_are_shown_in_units(void)
 {
     registers.status.position.pole_pairs   = 2U;
@@ -155,6 +191,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_command_has_counts);
+    RUN_TEST(test_one_limit_of_all_commanded_speeds);
     RUN_TEST(test_positions_are_shown_in_units);
     RUN_TEST(test_a_position_beyond_the_counts_is_refused_and_so_is_its_gear);
     RUN_TEST(test_the_polarity_reverses_what_its_bits_name);
