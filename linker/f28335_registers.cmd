@@ -13,6 +13,7 @@ EPwm1Regs     = 0x006800;
 EPwm2Regs     = 0x006840;
 EPwm3Regs     = 0x006880;
 EPwm5Regs     = 0x006900;
+EPwm6Regs     = 0x006940;
 EQep1Regs     = 0x006B00;
 GpioCtrlRegs  = 0x006F80;
 GpioDataRegs  = 0x006FC0;

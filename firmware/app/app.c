@@ -290,12 +290,23 @@ static void work_at_rest(app_mode_t mode)
     app_control_follow(&tick_side.control, &tick_side.in.command);
 }
 
+static void drive_brake(bool turn)
+{
+    app_brake_t *const b = &tick_side.modes.brake;
+
+    app_brake_tick(b, &tick_side.requested, app_modes_brake(&tick_side.modes), turn,
+                   tick_side.drive->ts_s);
+    tick_side.control.braked = app_brake_may_hold(b);
+    board_brake_write(app_brake_output(b));
+}
+
 static void work(void)
 {
     const app_mode_t mode = tick_side.modes.mode;
     const uint16_t   left = tick_side.slow_left;
+    const bool       turn = left == 0U;
 
-    if (left > 0U) {
+    if (!turn) {
         tick_side.slow_left = (uint16_t)(left - 1U);
     } else {
         tick_side.slow_left = (uint16_t)(tick_side.slow_periods - 1U);
@@ -303,8 +314,12 @@ static void work(void)
     }
     if ((mode == APP_MODE_RUN) || (mode == APP_MODE_STOP)) {
         work_slowly(mode);
+        if (turn && (tick_side.modes.brake.state != APP_BRAKE_NONE)) {
+            drive_brake(true);
+        }
     } else {
         work_at_rest(mode);
+        drive_brake(turn);
     }
 }
 

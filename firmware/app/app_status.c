@@ -85,6 +85,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->held                = false;
     s->homing              = APP_HOMING_IDLE;
     s->inputs              = 0U;
+    s->brake               = m->brake.state;
 #if BOARD_CHOPPER
     s->chopper      = app_chopper_state(&m->chopper);
     s->chopper_heat = m->chopper.heat;

@@ -8,6 +8,7 @@
 
 #include "app_align.h"
 #include "app_angle.h"
+#include "app_brake.h"
 #include "app_chopper.h"
 #include "app_commission.h"
 #include "app_homing.h"
@@ -120,7 +121,8 @@ typedef struct {
     bool                    unled;        /**< no set-points for too long, app_path.h */
     bool                    held;         /**< a limit of position holds the set-point */
     app_homing_stage_t      homing;
-    uint16_t                inputs;              /**< active ones, BOARD_INPUT_ bits */
+    uint16_t                inputs; /**< active ones, BOARD_INPUT_ bits */
+    app_brake_state_t       brake;
     float                   torque_share;        /**< RUN only: by the model, of the rated torque */
     float                   torque_demand_share; /**< RUN only: the same of their references */
 #if BOARD_CHOPPER

@@ -80,7 +80,7 @@ enum { BOARD_INPUT_NEGATIVE = 1, BOARD_INPUT_POSITIVE = 2, BOARD_INPUT_HOME = 4 
 enum { BOARD_STORE_SLOTS = 4 };
 
 /** Number of words that survive board_restart() but not a power cut. */
-#define BOARD_KEPT_WORDS 134U
+#define BOARD_KEPT_WORDS 143U
 
 /** Formats of the serial line. As Modbus requires, each has 11 bits an octet. */
 enum {
@@ -159,6 +159,17 @@ void board_duty_write(const board_duty_t *duty);
  * Context: control ISR.
  */
 void board_chopper_write(bool on);
+
+/**
+ * @brief Releases the holding brake, or lets its spring close it.
+ *
+ * A release lasts for 10 ms: call it again before. A program that stops, a debugger or a reset
+ * therefore end it. It has no effect while the gates are off, and board_gate_trip() or the trip
+ * input end it at once.
+ *
+ * Context: control ISR.
+ */
+void board_brake_write(bool release);
 
 /**
  * @brief Enables the gates from the start of the next period on.

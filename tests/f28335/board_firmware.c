@@ -29,6 +29,9 @@ static void tick(void)
         board_firmware.trip = false;
         board_gate_trip();
     }
+    if (board_firmware.brakes) {
+        board_brake_write(board_firmware.brake);
+    }
     if (board_firmware.chops) {
         board_chopper_write(board_firmware.chopper);
     }

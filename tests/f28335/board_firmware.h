@@ -22,6 +22,8 @@ typedef struct {
     bool          enable;        /**< gates on from the next tick */
     bool          chops;         /**< the tick commands the chopper */
     bool          chopper;       /**< on */
+    bool          brakes;        /**< the tick commands the holding brake */
+    bool          brake;         /**< released */
     bool          trip;          /**< gates off from the next tick */
     bool          serve;         /**< the background serves the watchdog */
     double        tick_lasts_us; /**< more than nothing: the next tick takes this long, once */

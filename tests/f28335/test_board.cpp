@@ -68,7 +68,7 @@ TEST_F(F28335Board, ClockRegisters)
     EXPECT_EQ(SysCtrlRegs.LOSPCP.all, 2U);
     // TBCLKSYNC 2, ADC 3, SCI-A 10, eCAN-A 14; ePWM1..3 0..2, eQEP1 14; CPU timers 0, 1 8, 9; all the rest off.
     EXPECT_EQ(SysCtrlRegs.PCLKCR0.all, (1U << 2) | (1U << 3) | (1U << 10) | (1U << 14));
-    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 14));
+    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 5) | (1U << 14));
     EXPECT_EQ(SysCtrlRegs.PCLKCR3.all, (1U << 8) | (1U << 9));
     EXPECT_EQ(SysCtrlRegs.MAPCNF.all, 0U);
 }
@@ -214,8 +214,8 @@ TEST_F(F28335Board, ChopperRegisters)
     EXPECT_EQ(EPwm5Regs.DBCTL.all, 0U);
     // No trip: a fast motor charges the link through an open bridge.
     EXPECT_EQ(EPwm5Regs.TZSEL.all, 0U);
-    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 4) | (1U << 14));
-    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 16) | (1UL << 24));
+    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (3U << 4) | (1U << 14));
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 16) | (1UL << 20) | (1UL << 24));
     EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
     EXPECT_FALSE(device->chopper_is_on());
 }
@@ -278,6 +278,97 @@ TEST_F(F28335Board, ChopperEndsWhenTicksHang)
     EXPECT_FALSE(again.chopper_is_on());
 }
 
+TEST_F(F28335Board, BrakeRegisters)
+{
+    start();
+    // Counts up 0, period without shadow (3), no sync out 3 (5:4), SYSCLK / 2 (9:7 = 1) / 32 (12:10 = 5), runs in a halt (15:14 = 2).
+    EXPECT_EQ(EPwm6Regs.TBCTL.all, (1U << 3) | (3U << 4) | (1U << 7) | (5U << 10) | (2U << 14));
+    EXPECT_EQ(EPwm6Regs.TBPRD, 65535U);
+    EXPECT_EQ(EPwm6Regs.CMPA.half.CMPA, 23438U); // 10 ms of 64 cycles each
+    EXPECT_EQ(EPwm6Regs.CMPCTL.all, 1U << 4);
+    EXPECT_EQ(EPwm6Regs.AQCTLA.all, 1U << 4);
+    EXPECT_EQ(EPwm6Regs.AQCTLB.all, 0U);
+    EXPECT_EQ(EPwm6Regs.DBCTL.all, 0U);
+    EXPECT_EQ(EPwm6Regs.TZSEL.all, 1U << 8); // OSHT1, as the legs
+    EXPECT_EQ(EPwm6Regs.TZCTL.all & 3U, 2U); // A low
+    EXPECT_FALSE(device->brake_is_released());
+}
+
+TEST_F(F28335Board, BrakeIsReleasedOnlyWhileTheGatesAreOn)
+{
+    auto &b   = const_cast<board_firmware_t &>(board_firmware);
+    b.brake   = true;
+    b.brakes  = true;
+    Device &d = start();
+    d.run_for(20 * period_s);
+    EXPECT_FALSE(d.brake_is_released()); // commanded, but the gates are off
+    enable_gates();
+    d.run_for(period_s);
+    EXPECT_TRUE(d.brake_is_released());
+    b.brake = false;
+    d.run_for(period_s);
+    EXPECT_FALSE(d.brake_is_released());
+    b.brake = true;
+    d.run_for(period_s);
+    EXPECT_TRUE(d.brake_is_released());
+    board_firmware.trip = true; // board_gate_trip()
+    d.run_for(period_s);
+    EXPECT_TRUE(all_legs(false));
+    EXPECT_FALSE(d.brake_is_released());
+    enable_gates();
+    d.run_for(period_s);
+    EXPECT_TRUE(d.brake_is_released());
+    d.set_fault_pin(true); // TZ1: no program is needed
+    EXPECT_FALSE(d.brake_is_released());
+    d.run_for(20 * period_s);
+    EXPECT_FALSE(d.brake_is_released());
+    for (const Findings::Entry &e : d.findings().all()) {
+        ADD_FAILURE() << e.text;
+    }
+}
+
+TEST_F(F28335Board, BrakeEndsWithItsCommands)
+{
+    auto &b   = const_cast<board_firmware_t &>(board_firmware);
+    b.brake   = true;
+    b.brakes  = true;
+    Device &d = start();
+    enable_gates();
+    d.run_for(5 * period_s);
+    ASSERT_TRUE(d.brake_is_released());
+    const std::uint32_t tick = board_firmware.ticks;
+    d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 1e-6);
+    b.brakes            = false; // no commands, and the legs run on: as in a halt, but for those
+    const double last_s = d.time_s();
+    d.run_until([&] { return !d.brake_is_released(); }, 20e-3, 1e-6);
+    EXPECT_NEAR(d.time_s() - last_s, 10e-3, 5e-6);
+    EXPECT_TRUE(all_legs(true));
+    d.run_for(40e-3); // the counter comes around
+    EXPECT_FALSE(d.brake_is_released());
+}
+
+TEST_F(F28335Board, BrakeEndsWithTheProgram)
+{
+    auto &b   = const_cast<board_firmware_t &>(board_firmware);
+    b.brake   = true;
+    b.brakes  = true;
+    Device &d = start();
+    enable_gates();
+    d.run_for(5 * period_s);
+    ASSERT_TRUE(d.brake_is_released());
+    b.tick_lasts_us = 1000.0; // a tick that hangs: CPU timer 1 trips
+    d.run_for(3 * period_s);
+    EXPECT_FALSE(d.brake_is_released());
+
+    Device &again = start();
+    enable_gates();
+    again.run_for(5 * period_s);
+    ASSERT_TRUE(again.brake_is_released());
+    board_firmware.serve = false; // the watchdog resets
+    EXPECT_TRUE(again.run_until([&] { return again.was_reset(); }, 10e-3));
+    EXPECT_FALSE(again.brake_is_released());
+}
+
 TEST_F(F28335Board, EncoderRegisters)
 {
     start();
@@ -298,11 +389,11 @@ TEST_F(F28335Board, PinRegisters)
     start();
     // Two bits a pin. First register: ePWM1A..3B on 0..5, TZ1 on 12. Second register, from pin 16:
     // eQEP1A, B, I on 20, 21, 23, SCI-A on 28, 29 and eCAN-A on 30, 31.
-    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 24));
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 20) | (1UL << 24));
     EXPECT_EQ(GpioCtrlRegs.GPAMUX2.all, (1UL << 8) | (1UL << 10) | (1UL << 14) | (1UL << 24) |
                                             (1UL << 26) | (1UL << 28) | (1UL << 30));
     // Outputs: the six gates and the driver's enable on 6.
-    EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x7FU);
+    EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x47FU);
     // Pull-ups off: reset value 0xFFF, and pin 12, which the board pulls down.
     EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
     // TZ1 asynchronous 3; encoder and home switch on 26 six samples 2; both receivers asynchronous 3.

@@ -3,7 +3,9 @@
 // compiler marks the accesses with ThreadSanitizer's calls. At each of them the control interrupt
 // interrupts the background, or INT13 interrupts the tick. The registers model only what the trip
 // needs: TZFRC, TZCLR, the input, the enable pin.
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -45,7 +47,8 @@ constexpr Uint32   gate_pin = 0x40;
 constexpr Uint32   trip_pin = 1U << 12;
 constexpr Uint32   line_pin = 1U << 27;
 
-volatile EPWM_REGS *const legs[] = {&EPwm1Regs, &EPwm2Regs, &EPwm3Regs};
+volatile EPWM_REGS *const legs[] = {&EPwm1Regs, &EPwm2Regs, &EPwm3Regs,
+                                    &EPwm6Regs}; ///< and the brake
 
 bool   input_low = false;
 Uint32 gate      = 0;
@@ -122,11 +125,13 @@ void quietly(const Action &call)
 
 bool all_tripped()
 {
-    return (legs[0]->TZFLG.all & legs[1]->TZFLG.all & legs[2]->TZFLG.all & one_shot) != 0U;
+    return std::all_of(std::begin(legs), std::end(legs),
+                       [](auto *leg) { return (leg->TZFLG.all & one_shot) != 0U; });
 }
 bool any_tripped()
 {
-    return ((legs[0]->TZFLG.all | legs[1]->TZFLG.all | legs[2]->TZFLG.all) & one_shot) != 0U;
+    return std::any_of(std::begin(legs), std::end(legs),
+                       [](auto *leg) { return (leg->TZFLG.all & one_shot) != 0U; });
 }
 bool is_on()
 {

@@ -43,6 +43,7 @@ PERIPHERALS = {
     "EPwm2Regs": 0x6840,
     "EPwm3Regs": 0x6880,
     "EPwm5Regs": 0x6900,
+    "EPwm6Regs": 0x6940,
     "EQep1Regs": 0x6B00,
     "GpioCtrlRegs": 0x6F80,
     "GpioDataRegs": 0x6FC0,

@@ -96,6 +96,12 @@ void board_chopper_write(bool on)
     fake_board.chopper_writes++;
 }
 
+void board_brake_write(bool release)
+{
+    fake_board.brake = release;
+    fake_board.brake_writes++;
+}
+
 void board_gate_enable(void)
 {
     note(FAKE_BOARD_ENABLE);

@@ -42,6 +42,8 @@ typedef struct {
     board_duty_t         duty;
     bool                 chopper;
     int                  chopper_writes;
+    bool                 brake; /**< the last command; the board closes it with the gates */
+    int                  brake_writes;
     bool                 stack_spoilt;
     int                  served; /* watchdog */
     bool                 misfit; /* board_fits() refuses */

@@ -79,6 +79,14 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config,
 /** Starts at the first stage. Context: control ISR. */
 void app_align_start(app_align_t *a, uint16_t position_cnt);
 
+/** In this period the vector does not turn yet: the shaft is not free. Context: control ISR. */
+static inline void app_align_wait(app_align_t *a)
+{
+    if (a->stage == APP_ALIGN_SWEEP) {
+        a->timer_ticks = 0UL;
+    }
+}
+
 /**
  * @brief Executes one period; a->stage is the result. The bridge is open in WATCH and FAILED.
  *

@@ -79,6 +79,8 @@ const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS] = {
     {0x60C2U, 1U, 1U, true, &app_registers_map_holding[48], 0x00000000UL}, /* INTERPOLATION_PERIOD */
     {0x60C2U, 2U, 1U, true, NULL, 0xFFFFFFFDUL}, /* INTERPOLATION_POWER */
     {0x60FDU, 0U, 4U, false, &app_registers_map_input[56], 0x00000000UL}, /* DIGITAL_INPUTS */
+    {0x60FEU, 0U, 1U, false, NULL, 0x00000001UL}, /* Highest sub-index */
+    {0x60FEU, 1U, 4U, false, &app_registers_map_input[152], 0x00000000UL}, /* DIGITAL_OUTPUTS */
     {0x60FFU, 0U, 4U, true, &app_registers_map_holding[3], 0x00000000UL}, /* SPEED_RPM */
     {0x6502U, 0U, 4U, false, &app_registers_map_input[107], 0x00000000UL}, /* SUPPORTED_MODES */
 };

@@ -31,7 +31,7 @@ typedef struct {
     uint16_t inhibit_100us;
 } app_canopen_preset_t;
 
-#define APP_CANOPEN_OBJECTS 75U
+#define APP_CANOPEN_OBJECTS 77U
 
 /** In ascending order of index and sub-index. */
 extern const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS];

@@ -68,7 +68,7 @@ static void set_reference(app_control_t *c, const app_objects_t *o, const app_co
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
         const bool still = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT) ||
-                           (c->mode != APP_CONTROL_PROFILE_VELOCITY) || c->at_switch;
+                           (c->mode != APP_CONTROL_PROFILE_VELOCITY) || c->at_switch || c->braked;
 
         set_ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
@@ -97,7 +97,7 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     const bool              steady    = is_steady(c, seen, ask);
 
     if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation) &&
-        (o->inputs_used == 0U)) {
+        (o->inputs_used == 0U) && !c->braked) {
         keep_running(c, out);
         c->reset_high = reset_now;
         return;

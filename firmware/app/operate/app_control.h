@@ -66,6 +66,7 @@ typedef struct {
     app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
     bool                at_switch;    /**< a limit switch stops the motion */
+    bool                braked;       /**< the holding brake may hold the shaft; of app.c */
     bool                holds;        /**< positions, cyclic velocity: the set-points have begun */
     app_setpoint_t      setpoint;
     app_homing_t        homing;

@@ -14,6 +14,10 @@
 #define HOMING_ZERO_m_radps   (0.1f * BASE_TWO_PI)
 #define HOMING_s              60.0f
 
+/* Chosen: above what data sheets say of brakes for motors up to some kW. */
+#define BRAKE_RELEASE_ms 100U
+#define BRAKE_CLOSE_ms   100U
+
 #define THERE_cnt 8L /* chosen: a shaft that holds a position moves less */
 
 #define INTERPOLATION_s 0.01f /* chosen: a master on a serial line can keep it */
@@ -46,6 +50,7 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->holds             = false;
     c->limited           = false;
     c->at_switch         = false;
+    c->braked            = false;
     app_homing_reset(&c->homing);
     app_path_end(&c->path);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
@@ -67,7 +72,9 @@ app_objects_t app_control_default(const drive_config_t *drive)
                              .homing_method         = HOMING_METHOD,
                              .homing_switch_e_radps = pairs * HOMING_SWITCH_m_radps,
                              .homing_zero_e_radps   = pairs * HOMING_ZERO_m_radps,
-                             .homing_time_s         = HOMING_s};
+                             .homing_time_s         = HOMING_s,
+                             .brake_release_ms      = BRAKE_RELEASE_ms,
+                             .brake_close_ms        = BRAKE_CLOSE_ms};
     return o;
 }
 
@@ -319,7 +326,7 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
 {
     const bool    at_switch = is_at_switch(c, o, seen);
     const bool    halt      = app_control_has(o->controlword, APP_CONTROL_HALT);
-    const bool    halted    = c->stopping || halt || at_switch;
+    const bool    halted    = c->stopping || halt || at_switch || c->braked;
     app_follows_t follows   = APP_FOLLOWS_SPEED;
 
     c->at_switch = at_switch;
@@ -334,6 +341,9 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
             (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_CYCLIC_SPEED : follows;
     } else if (c->mode == APP_CONTROL_HOMING) {
         follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_HOMING : follows;
+        if (c->braked) {
+            app_homing_wait(&c->homing, o);
+        }
     } else {
         /* a speed */
     }

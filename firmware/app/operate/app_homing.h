@@ -71,6 +71,12 @@ static inline bool app_homing_moves(app_homing_stage_t stage)
     return (stage > APP_HOMING_IDLE) && (stage < APP_HOMING_ATTAINED);
 }
 
+/** Waits a millisecond in its place: a start that rises meanwhile acts after it. */
+static inline void app_homing_wait(app_homing_t *h, const app_objects_t *o)
+{
+    h->start_high = h->start_high && app_control_has(o->controlword, APP_CONTROL_NEW_SETPOINT);
+}
+
 /**
  * @brief Executes a millisecond.
  *

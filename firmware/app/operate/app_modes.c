@@ -46,6 +46,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->locked           = false;
     m->gate_on          = false;
     app_commission_init(&m->commission, d);
+    app_brake_init(&m->brake);
     m->zero_a_A = 0.0f;
     m->zero_b_A = 0.0f;
     clear_snapshot(&m->snapshot);

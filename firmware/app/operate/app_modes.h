@@ -14,6 +14,9 @@
  * opens; at a speed at which this is unsafe, the motor is shorted (app_stop.h). A reset command
  * without run ends FAULT.
  *
+ * A holding brake that is used keeps the bridge on until it has closed: a withdrawn run brakes to
+ * standstill first, whatever app_stop.h says. Faults do not wait for it.
+ *
  * A run starts only when run rises in READY. Some temporary conditions prevent a start: heat, a dc
  * link out of range, an active trip input, a shaft too fast for a precharge.
  *
@@ -78,6 +81,7 @@ typedef struct {
     law_aim_t           aim;          /**< to_position or to_torque, to the drive */
     torque_command_t    to_torque;    /**< torque command to the drive */
     uint32_t            torque_ticks; /**< of the last period that followed a torque */
+    app_brake_t         brake;        /**< its app_brake_tick() is of app.c */
 #if BOARD_CHOPPER
     app_chopper_t chopper; /**< its app_chopper_tick() is of app.c */
 #endif
@@ -102,6 +106,9 @@ APP_PART bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
 /** True if a temporary condition prevented a start in the previous tick. Context: control ISR. */
 bool app_modes_in_the_way(const app_modes_t *m);
+
+/** What the mode wants of the holding brake. Context: control ISR. */
+app_brake_ask_t app_modes_brake(const app_modes_t *m);
 
 /** Scope: 1 while the chopper's resistor is on. Context: control ISR. */
 static inline float app_modes_chopper(const app_modes_t *m)

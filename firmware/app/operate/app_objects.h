@@ -89,6 +89,9 @@ typedef struct {
     float    homing_accel_e_radps2; /**< 0: the drive's limit */
     float    homing_time_s;         /**< that it may take */
     int32_t  home_offset_cnt;       /**< from home to the zero */
+    uint16_t brake_used;            /**< 1: app_brake.h, as the next two */
+    uint16_t brake_release_ms;
+    uint16_t brake_close_ms;
 } app_objects_t;
 
 /** True for the modes of operation that command a torque. */

@@ -41,14 +41,20 @@ static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
     return app_states_drive(m, &stop, true);
 }
 
+/* A withdrawn run goes on until the bridge may open and the brake holds the shaft. */
+static bool must_brake(const app_modes_t *m)
+{
+    return app_stop_is_braking(&m->stop, m->reading.omega_e_radps) ||
+           app_brake_may_be_open(&m->brake);
+}
+
 /* RUN and STOP. After loss of the encoder the drive brakes until it is too slow to run without one;
  * then it trips. A run that follows a torque trips at once where the bridge may open. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool lost = m->drive.answer.without_angle;
     const bool brake =
-        (m->drive.state == DRIVE_RUN) &&
-        (lost || (!in->command.run && app_stop_is_braking(&m->stop, m->reading.omega_e_radps)));
+        (m->drive.state == DRIVE_RUN) && (lost || (!in->command.run && must_brake(m)));
     bridge_t out =
         brake ? drive_to_a_stop(m, in) : app_states_drive(m, &in->command, in->command.run);
 

@@ -162,6 +162,30 @@ bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_
     return app_states_fault(m, in);
 }
 
+/* The law or the alignment's vector hold the shaft before the brake is released. A motor that is
+ * commissioned is shorted until then. */
+app_brake_ask_t app_modes_brake(const app_modes_t *m)
+{
+    const bool still =
+        base_within(m->drive.answer.now.omega_e_radps, m->config->stop.still_e_radps);
+    app_brake_ask_t ask = APP_BRAKE_KEEP;
+
+    if (!m->gate_on || (m->mode == APP_MODE_FAULT)) {
+        ask = APP_BRAKE_BRIDGE_OFF;
+    } else if ((m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_COMMISSION)) {
+        ask = APP_BRAKE_RELEASE;
+    } else if (m->mode == APP_MODE_STOP) {
+        ask = still ? APP_BRAKE_CLOSE : APP_BRAKE_KEEP;
+    } else if ((m->mode == APP_MODE_ALIGN) && (m->align.stage == APP_ALIGN_DONE)) {
+        ask = APP_BRAKE_CLOSE;
+    } else if ((m->mode == APP_MODE_ALIGN) && (m->align.stage > APP_ALIGN_RAMP)) {
+        ask = APP_BRAKE_RELEASE;
+    } else {
+        /* as it is */
+    }
+    return ask;
+}
+
 /* An unknown temperature does not prevent a start; it is a fault of the run. */
 bool app_modes_in_the_way(const app_modes_t *m)
 {

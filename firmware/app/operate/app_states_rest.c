@@ -182,6 +182,24 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     return bridge_shorted();
 }
 
+static bridge_t align_vector(app_modes_t *m, const app_modes_input_t *in)
+{
+    return app_align_tick(&m->align, &m->drive.config->dead_time, m->sample.ia_A, m->sample.ib_A,
+                          m->sample.dc_link_V, in->raw->position_cnt);
+}
+
+/* The angle is found, and the brake may still be open. The vector holds the shaft. Where the index
+ * was found the vector would turn it: there the shorted motor damps it. */
+static bridge_t hold_aligned(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (m->angle.reference == APP_ANGLE_INDEX) {
+        return bridge_shorted();
+    }
+    const bridge_t out = align_vector(m, in);
+
+    return (m->align.stage == APP_ALIGN_FAILED) ? app_states_trip(m, in, APP_FAULT_ALIGN) : out;
+}
+
 /* The angle is found. The bridge stays open until the sensors have read zero, as before any start.
  * Then an alignment without run returns to READY, otherwise run starts. */
 static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
@@ -209,34 +227,44 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (!drive_watches(m, in)) {
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
-    if (m->align.stage == APP_ALIGN_DONE) {
+    if ((m->align.stage == APP_ALIGN_DONE) && !app_brake_may_be_open(&m->brake)) {
         return aligned(m, in);
+    }
+    if (m->align.stage == APP_ALIGN_DONE) {
+        return hold_aligned(m, in);
     }
     if (m->angle.reference ==
         APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
         m->align.stage = APP_ALIGN_DONE;
         app_position_forget(&m->position);
-        return bridge_open();
+        return app_brake_may_be_open(&m->brake) ? bridge_shorted() : bridge_open();
     }
-    const bridge_t out = app_align_tick(&m->align, &m->drive.config->dead_time, m->sample.ia_A,
-                                        m->sample.ib_A, m->sample.dc_link_V, in->raw->position_cnt);
+    if (app_brake_may_hold(&m->brake)) {
+        app_align_wait(&m->align);
+    }
+    const bridge_t out = align_vector(m, in);
     if (m->align.stage == APP_ALIGN_FAILED) {
         return app_states_trip(m, in, APP_FAULT_ALIGN);
     }
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
         app_position_forget(&m->position);
-        return bridge_open();
+        return app_brake_may_be_open(&m->brake) ? out : bridge_open();
     }
     return out;
 }
 
 /* A withdrawn command opens the bridge at once. At commissioning speeds the EMF is below the dc
- * link. */
+ * link. The motor is shorted until the brake is released. */
 static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
 {
-    const bool     goes_on = in->command.commission && !in->command.run;
-    const bridge_t out     = app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
+    const bool goes_on = in->command.commission && !in->command.run;
+
+    if (goes_on && (m->commission.module.stage > COMMISSION_WATCH) &&
+        app_brake_may_hold(&m->brake)) {
+        return bridge_shorted();
+    }
+    const bridge_t out = app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
 
     if (!goes_on || (m->commission.module.stage == COMMISSION_FINISHED)) {
         app_angle_drop(&m->angle);

@@ -176,6 +176,9 @@ app_chopper_state_t app_registers_chopper(const app_registers_t *r);
 /** Heat of the chopper's resistor; 0: no chopper. */
 float app_registers_chopper_heat(const app_registers_t *r);
 
+/** Digital outputs of 60FEh: bit 0 while the holding brake is set. */
+uint16_t app_registers_outputs(const app_registers_t *r);
+
 /** True if a condition keeps the chopper's resistor off. */
 bool app_registers_chopper_rests(const app_registers_t *r);
 

@@ -82,6 +82,9 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_HOMING_TIME, APP_REGISTERS_U16, 10.0f, 0.1f, 6000.0f, false, 0x2C2CU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.homing_time_s), false, 0U},
     {APP_REGISTERS_INPUTS_USED, APP_REGISTERS_U16, 0.0f, 0.0f, 7.0f, false, 0x3350U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.inputs_used), false, 0U},
     {APP_REGISTERS_INPUTS_INVERTED, APP_REGISTERS_U16, 0.0f, 0.0f, 7.0f, false, 0x7DD4U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.inputs_inverted), false, 0U},
+    {APP_REGISTERS_BRAKE_USED, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, true, 0x2553U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.brake_used), false, 0U},
+    {APP_REGISTERS_BRAKE_RELEASE_TIME, APP_REGISTERS_U16, 0.0f, 0.0f, 5000.0f, false, 0xB6DFU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.brake_release_ms), false, 0U},
+    {APP_REGISTERS_BRAKE_CLOSE_TIME, APP_REGISTERS_U16, 0.0f, 0.0f, 5000.0f, false, 0x1C7AU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.brake_close_ms), false, 0U},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
@@ -236,6 +239,8 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_CHOPPER_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 58U, false, 0U},
     {APP_REGISTERS_CHOPPER_ON, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 59U, false, 0U},
     {APP_REGISTERS_CHOPPER_OFF, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 60U, false, 0U},
+    {APP_REGISTERS_BRAKE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_brake_state_t), AT(app_status_t, brake), false, 0U},
+    {APP_REGISTERS_DIGITAL_OUTPUTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 61U, false, 0U},
 };
 
 float app_registers_map_real(const app_registers_t *r, uint16_t number)
@@ -436,6 +441,9 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
         break;
     case 57U: /* CHOPPER_STATE */
         x = (uint32_t)app_registers_chopper(r);
+        break;
+    case 61U: /* DIGITAL_OUTPUTS */
+        x = app_registers_outputs(r);
         break;
     default:
         break;

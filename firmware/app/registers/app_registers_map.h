@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "300359b6" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "d9671dda" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 42U /**< parameters */
+#define APP_REGISTERS_SAVED 45U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -108,7 +108,12 @@ enum {
     APP_REGISTERS_INPUTS_USED = 362,
     APP_REGISTERS_INPUTS_INVERTED = 363,
     APP_REGISTERS_HOMING_FIRST = 352,
-    APP_REGISTERS_HOMING_END = 364
+    APP_REGISTERS_HOMING_END = 364,
+    APP_REGISTERS_BRAKE_USED = 384,
+    APP_REGISTERS_BRAKE_RELEASE_TIME = 385,
+    APP_REGISTERS_BRAKE_CLOSE_TIME = 386,
+    APP_REGISTERS_BRAKE_FIRST = 384,
+    APP_REGISTERS_BRAKE_END = 387
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -285,7 +290,11 @@ enum {
     APP_REGISTERS_CHOPPER_ON = 418,
     APP_REGISTERS_CHOPPER_OFF = 419,
     APP_REGISTERS_CHOPPER_NOW_FIRST = 416,
-    APP_REGISTERS_CHOPPER_NOW_END = 420
+    APP_REGISTERS_CHOPPER_NOW_END = 420,
+    APP_REGISTERS_BRAKE_STATE = 448,
+    APP_REGISTERS_DIGITAL_OUTPUTS = 449,
+    APP_REGISTERS_BRAKE_NOW_FIRST = 448,
+    APP_REGISTERS_BRAKE_NOW_END = 450
 };
 
 typedef enum {
@@ -336,9 +345,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 69U
+#define APP_REGISTERS_MAP_HOLDING 72U
 
-#define APP_REGISTERS_MAP_INPUT 151U
+#define APP_REGISTERS_MAP_INPUT 153U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -144,13 +144,14 @@ static bool is_reached(const app_registers_t *r)
     return there;
 }
 
-/* True if a cyclic command is followed: the run is not halted or stopped. */
+/* True if a cyclic command is followed: the run is not halted, stopped, or held by the brake. */
 static bool is_following(const app_registers_t *r)
 {
     const app_status_t *s = &r->status;
 
     return (s->mode_of_operation >= (int16_t)APP_CONTROL_CYCLIC_POSITION) &&
            (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
+           ((s->brake == APP_BRAKE_NONE) || (s->brake == APP_BRAKE_RELEASED)) &&
            !app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
 }
 
@@ -214,6 +215,13 @@ uint16_t app_registers_first_sample(const app_registers_t *r)
     const uint16_t        index = raw->index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
 
     return (uint16_t)(valid | index);
+}
+
+uint16_t app_registers_outputs(const app_registers_t *r)
+{
+    const app_brake_state_t brake = r->status.brake;
+
+    return ((brake == APP_BRAKE_CLOSED) || (brake == APP_BRAKE_CLOSING)) ? 1U : 0U;
 }
 
 uint32_t app_registers_scope_state(const app_registers_t *r)

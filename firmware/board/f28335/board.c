@@ -44,6 +44,7 @@ bool board_init(const board_setup_t *setup)
     }
     in_force = setup;
     pwm_init(setup);
+    brake_init();
     gpio_connect();
     inputs_init();
 #if BOARD_CHOPPER

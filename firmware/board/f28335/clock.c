@@ -58,6 +58,7 @@ void clock_peripherals(void)
     SysCtrlRegs.PCLKCR1.bit.EPWM1ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EPWM2ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EPWM3ENCLK     = 1U;
+    SysCtrlRegs.PCLKCR1.bit.EPWM6ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EQEP1ENCLK     = 1U;
     SysCtrlRegs.PCLKCR3.bit.CPUTIMER0ENCLK = 1U;
     SysCtrlRegs.PCLKCR3.bit.CPUTIMER1ENCLK = 1U;

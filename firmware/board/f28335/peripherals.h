@@ -52,6 +52,8 @@ void trip_overdue(void); /**< the same for an overrun. Context: INT13 */
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
 
+void brake_init(void); /**< off; the trip must be armed */
+
 void chopper_init(const board_setup_t *setup); /**< off; its counter starts with the legs */
 
 void adc_init(const board_setup_t *setup); /**< about 5 ms */

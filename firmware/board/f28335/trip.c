@@ -31,6 +31,7 @@ void trip_init(void)
     arm(&EPwm1Regs);
     arm(&EPwm2Regs);
     arm(&EPwm3Regs);
+    arm(&EPwm6Regs); /* the brake: it closes whenever the bridge opens */
 }
 
 void trip_latch(uint16_t fault)
@@ -104,6 +105,7 @@ void board_gate_trip(void)
         EPwm1Regs.TZFRC.bit.OST = 1U;
         EPwm2Regs.TZFRC.bit.OST = 1U;
         EPwm3Regs.TZFRC.bit.OST = 1U;
+        EPwm6Regs.TZFRC.bit.OST = 1U;
         EDIS;
     } while (enabled);
 }

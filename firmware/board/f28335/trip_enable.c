@@ -17,5 +17,6 @@ void trip_clear(void)
     EPwm1Regs.TZCLR.all = TRIP_CLEAR_ALL;
     EPwm2Regs.TZCLR.all = TRIP_CLEAR_ALL;
     EPwm3Regs.TZCLR.all = TRIP_CLEAR_ALL;
+    EPwm6Regs.TZCLR.all = TRIP_CLEAR_ALL;
     EDIS;
 }

@@ -34,7 +34,8 @@ static inline bool trip_pin_is_active(void)
 /** Faults that forbid to enable now: the crystal, the trip input. Context: control ISR. */
 uint16_t trip_hinders(void);
 
-/** Clears the one-shots of the legs; an active input sets them again. Context: control ISR. */
+/** Clears the one-shots of legs and brake; an active input sets them again. Context: control
+ * ISR. */
 void trip_clear(void);
 
 #endif /* TRIP_ENABLE_H */

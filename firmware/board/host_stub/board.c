@@ -260,6 +260,11 @@ uint16_t board_can_state(void)
     return 0U;
 }
 
+void board_brake_write(bool release)
+{
+    (void)release;
+}
+
 uint16_t board_inputs(void)
 {
     return 0U;

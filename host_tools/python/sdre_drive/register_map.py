@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "300359b6"
+DIGEST = "d9671dda"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -131,6 +131,12 @@ HOMING: Tuple[Register, ...] = (  # holding
     Register("HOMING_TIME", 361, "u16", 0.1, "s"),
     Register("INPUTS_USED", 362, "u16", 0.0, "bits"),
     Register("INPUTS_INVERTED", 363, "u16", 0.0, "bits"),
+)
+
+BRAKE: Tuple[Register, ...] = (  # holding
+    Register("BRAKE_USED", 384, "u16", 0.0, ""),
+    Register("BRAKE_RELEASE_TIME", 385, "u16", 0.0, "ms"),
+    Register("BRAKE_CLOSE_TIME", 386, "u16", 0.0, "ms"),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -317,11 +323,16 @@ CHOPPER_NOW: Tuple[Register, ...] = (  # input
     Register("CHOPPER_OFF", 419, "u16", 0.1, "V"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS, *HOMING)
-INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW, *CHOPPER_NOW)
+BRAKE_NOW: Tuple[Register, ...] = (  # input
+    Register("BRAKE_STATE", 448, "u16", 0.0, ""),
+    Register("DIGITAL_OUTPUTS", 449, "u16", 0.0, "bits"),
+)
+
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS, *HOMING, *BRAKE)
+INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW, *CHOPPER_NOW, *BRAKE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS, HOMING,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS, HOMING, BRAKE,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -368,6 +379,9 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["HOMING_TIME"], 0.1, 6000, 60.0, False, "", "after it homing has failed"),
     Parameter(BY_NAME["INPUTS_USED"], 0, 7, 0.0, False, "", "1 negative, 2 positive limit switch, 4 home switch. An input that is not used is never active."),
     Parameter(BY_NAME["INPUTS_INVERTED"], 0, 7, 0.0, False, "", "0: high or open is active, 1: low. With 0 a contact that opens is active, and so is a broken wire."),
+    Parameter(BY_NAME["BRAKE_USED"], 0, 1, 0.0, True, "", "1: a holding brake at its output. [Holding brake](#holding-brake) describes it."),
+    Parameter(BY_NAME["BRAKE_RELEASE_TIME"], 0, 5000, 100.0, False, "", "from the output to the open brake. Set-points act after it."),
+    Parameter(BY_NAME["BRAKE_CLOSE_TIME"], 0, 5000, 100.0, False, "", "from the output to the closed brake. The bridge goes off after it."),
 )
 
 # Signals of the scope by number: name and unit.

@@ -48,6 +48,7 @@ bool            f28335_board_init(const board_setup_t *setup);
 void            f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
 const board_sample_t *f28335_board_sample(void);
 void                  f28335_board_duty_write(const board_duty_t *duty);
+void                  f28335_board_brake_write(bool release);
 void                  f28335_board_chopper_write(bool on);
 void                  f28335_board_gate_enable(void);
 void                  f28335_board_gate_trip(void);
@@ -149,6 +150,15 @@ void board_duty_write(const board_duty_t *duty)
         the_fake->write_duty(*duty);
     } else {
         f28335_board_duty_write(duty);
+    }
+}
+
+void board_brake_write(bool release)
+{
+    if (the_fake != nullptr) {
+        the_fake->write_brake(release);
+    } else {
+        f28335_board_brake_write(release);
     }
 }
 

@@ -112,6 +112,11 @@ void FakeBoard::enable_gates(bool on)
     }
 }
 
+void FakeBoard::write_brake(bool release)
+{
+    bench_.set_brake(release && gates_, tick_delay_s);
+}
+
 void FakeBoard::write_chopper(bool on)
 {
     bench_.set_chopper(on, tick_delay_s);
@@ -122,6 +127,9 @@ void FakeBoard::set_gates(bool on)
     if (on != gates_) {
         gates_ = on;
         bench_.set_legs({on, on, on}, tick_delay_s);
+        if (!on) {
+            bench_.set_brake(false, tick_delay_s);
+        }
     }
 }
 

@@ -40,6 +40,7 @@ public:
     }
     void          write_duty(const board_duty_t &duty);
     void          enable_gates(bool on);
+    void          write_brake(bool release);
     void          write_chopper(bool on);
     std::uint32_t cycles() const;
 

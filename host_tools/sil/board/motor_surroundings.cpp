@@ -52,6 +52,11 @@ void MotorSurroundings::legs_change(const std::array<bool, 3> &enabled, double i
     bench_.set_legs(enabled, into_period_s);
 }
 
+void MotorSurroundings::brake_changes(bool high, double into_period_s)
+{
+    bench_.set_brake(high, into_period_s);
+}
+
 void MotorSurroundings::chopper_changes(bool on, double into_period_s)
 {
     bench_.set_chopper(on, into_period_s);

@@ -17,6 +17,7 @@ public:
 
     void       period_begins(const ControlPeriod &period) override;
     void       legs_change(const std::array<bool, 3> &enabled, double into_period_s) override;
+    void       brake_changes(bool high, double into_period_s) override;
     void       chopper_changes(bool on, double into_period_s) override;
     double     analog_V(int side, int number) override;
     ShaftCount shaft(double into_period_s) override;

@@ -120,7 +120,8 @@ void Device::sync()
     for (PwmUnit &unit : pwm_) {
         unit.sync(fault_pin_trips(), findings_, t);
     }
-    chopper_.sync(findings_, t);
+    chopper_.sync(fault_pin_trips(), findings_, t);
+    brake_.sync(fault_pin_trips(), findings_, t);
     adc_.sync(now_);
     encoder_.sync(findings_, t);
     timer_.sync();
@@ -139,7 +140,7 @@ void Device::sync()
     }
     guard_.remember();
     update_legs();
-    update_chopper();
+    update_outputs();
 }
 
 /// Lets time pass, on the firmware's stack, with the interrupts that fall into it.

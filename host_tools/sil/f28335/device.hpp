@@ -16,7 +16,6 @@
 
 #include "sil/f28335/adc_unit.hpp"
 #include "sil/f28335/can_bus.hpp"
-#include "sil/f28335/chopper_unit.hpp"
 #include "sil/f28335/clock.hpp"
 #include "sil/f28335/cpu_timer.hpp"
 #include "sil/f28335/ecan_unit.hpp"
@@ -24,6 +23,7 @@
 #include "sil/f28335/findings.hpp"
 #include "sil/f28335/gpio.hpp"
 #include "sil/f28335/guarded.hpp"
+#include "sil/f28335/hold_unit.hpp"
 #include "sil/f28335/pie.hpp"
 #include "sil/f28335/pwm_unit.hpp"
 #include "sil/f28335/registers.hpp"
@@ -101,6 +101,11 @@ public:
     {
         return chopper_high_;
     }
+    /// Level of the holding brake's output.
+    bool brake_is_released() const
+    {
+        return brake_high_;
+    }
     const Findings &findings() const
     {
         return findings_;
@@ -160,7 +165,8 @@ public:
 private:
     void               sync();
     void               update_legs();
-    void               update_chopper();
+    bool               is_high(int pin, const HoldUnit &unit) const;
+    void               update_outputs();
     bool               pins_are_safe() const;
     void               wait_ticks(std::int64_t ticks);
     bool               wait_towards(std::int64_t end, bool resumed);
@@ -197,12 +203,14 @@ private:
     bool                        masked_       = false;
     std::array<bool, 3>         legs_{};
     bool                        chopper_high_ = false; ///< GPIO8
+    bool                        brake_high_   = false; ///< GPIO10
     Clock                       clock_;
     Watchdog                    watchdog_;
     Pie                         pie_;
     Gpio                        gpio_;
     std::array<PwmUnit, 3>      pwm_;
-    ChopperUnit                 chopper_{EPwm5Regs};
+    HoldUnit                    chopper_{EPwm5Regs, 5};
+    HoldUnit                    brake_{EPwm6Regs, 6};
     AdcUnit                     adc_;
     EncoderUnit                 encoder_;
     CpuTimer                    timer_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int pin_gate_enable = 6;
 constexpr int pin_chopper     = 8;
+constexpr int pin_brake       = 10;
 
 // Chosen: the unit timer follows the PWM within a few cycles; within this the shaft stands still.
 constexpr std::int64_t same_instant_ticks = 150;
@@ -58,14 +59,24 @@ void Device::update_legs()
 }
 
 /// A pin that is no output is pulled down by the board.
-void Device::update_chopper()
+bool Device::is_high(int pin, const HoldUnit &unit) const
 {
-    const bool by_unit = Gpio::is_muxed(pin_chopper, 1) && chopper_.high();
-    const bool plain   = Gpio::is_muxed(pin_chopper, 0) && gpio_.output_high(pin_chopper);
-    const bool now     = !reset_ && (by_unit || plain);
-    if (now != chopper_high_) {
-        chopper_high_ = now;
-        surroundings_.chopper_changes(now, into_period_s());
+    const bool by_unit = Gpio::is_muxed(pin, 1) && unit.high();
+    const bool plain   = Gpio::is_muxed(pin, 0) && gpio_.output_high(pin);
+    return !reset_ && (by_unit || plain);
+}
+
+void Device::update_outputs()
+{
+    const bool chopper = is_high(pin_chopper, chopper_);
+    if (chopper != chopper_high_) {
+        chopper_high_ = chopper;
+        surroundings_.chopper_changes(chopper, into_period_s());
+    }
+    const bool brake = is_high(pin_brake, brake_);
+    if (brake != brake_high_) {
+        brake_high_ = brake;
+        surroundings_.brake_changes(brake, into_period_s());
     }
 }
 
@@ -81,8 +92,10 @@ std::int64_t Device::ticks_to_event() const
         const std::int64_t cycles = unit.cycles_to_event();
         take(cycles < 0 ? -1 : clock_.ticks_for(cycles));
     }
-    const std::int64_t chopper = chopper_.cycles_to_event();
-    take(chopper < 0 ? -1 : clock_.ticks_for(chopper));
+    for (const HoldUnit *unit : {&chopper_, &brake_}) {
+        const std::int64_t cycles = unit->cycles_to_event();
+        take(cycles < 0 ? -1 : clock_.ticks_for(cycles));
+    }
     const std::int64_t timeout = encoder_.cycles_to_timeout();
     take(timeout < 0 ? -1 : clock_.ticks_for(timeout));
     const std::int64_t timer1 = timer1_.cycles_to_interrupt();
@@ -171,6 +184,7 @@ void Device::elapse(std::int64_t ticks)
     watchdog_.pass(ticks);
     step_pwm(cycles);
     chopper_.step(cycles);
+    brake_.step(cycles);
     step_encoder(cycles);
     if (timer_.step(cycles)) {
         pie_.request(1, 7, intm_, findings_, time_s());
@@ -189,7 +203,7 @@ void Device::elapse(std::int64_t ticks)
         findings_.add(Finding::watchdog_reset, "the watchdog has reset the device", time_s());
         update_legs();
     }
-    update_chopper();
+    update_outputs();
 }
 
 } // namespace sdre::f28335

@@ -21,6 +21,7 @@
 #define board_can_write        f28335_board_can_write
 #define board_can_state        f28335_board_can_state
 #define board_inputs           f28335_board_inputs
+#define board_brake_write      f28335_board_brake_write
 #define board_chopper_write    f28335_board_chopper_write
 #define board_start            f28335_board_start
 #define board_sample           f28335_board_sample

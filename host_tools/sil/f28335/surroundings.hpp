@@ -33,6 +33,12 @@ public:
     virtual void period_begins(const ControlPeriod &period) = 0;
     /// Legs that follow the PWM from now on. The others have both switches off.
     virtual void legs_change(const std::array<bool, 3> &enabled, double into_period_s) = 0;
+    /// Level of the holding brake's output, GPIO10, from now on: high releases it.
+    virtual void brake_changes(bool high, double into_period_s)
+    {
+        (void)high;
+        (void)into_period_s;
+    }
     /// Level of the brake chopper's output, GPIO8, from now on.
     virtual void chopper_changes(bool on, double into_period_s)
     {

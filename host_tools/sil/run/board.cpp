@@ -151,7 +151,7 @@ void Board::begin_tick(double time_s)
         update_motor();
     }
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + extra_load_Nm_;
-    shaft_load_.brake_Nm  = extra_brake_Nm_;
+    shaft_load_.brake_Nm  = extra_brake_Nm_ + holding_brake_.torque_Nm(time_s);
     if (brake_.present()) {
         shaft_load_.brake_Nm += brake_.at(time_s, 0.5 * period_s_);
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sil/plant/bridge.hpp"
+#include "sil/plant/holding_brake.hpp"
 #include "sil/plant/load.hpp"
 #include "sil/plant/plant.hpp"
 #include "sil/sensors/adc.hpp"
@@ -66,6 +67,20 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
+    /// The holding brake's output of the board's firmware, this long after the tick. The torque follows at the next tick.
+    void command_brake(bool released, double into_period_s)
+    {
+        holding_brake_.command(released, time_s_ + into_period_s);
+    }
+    /// A brake that is closed now.
+    void set_holding_brake(const HoldingBrakeSettings &settings)
+    {
+        holding_brake_ = HoldingBrake(settings);
+    }
+    bool brake_is_closed() const
+    {
+        return holding_brake_.torque_Nm(time_s_) > 0.0;
+    }
     /// The chopper's output of the board's firmware.
     void command_chopper(bool on)
     {
@@ -142,6 +157,7 @@ private:
     Noise                    noise_c_;
     LoadProfile              load_;
     PowderBrake              brake_;
+    HoldingBrake             holding_brake_;
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
     Glitch                   glitch_; ///< of the sample of this tick

@@ -79,6 +79,7 @@ void MotorBench::begin_tick()
         board_ = std::make_unique<Board>(scenario_);
         board_->set_legs(legs_);
         board_->command_chopper(chopper_);
+        board_->command_brake(brake_, 0.0);
     }
     const RawSample before = sample_;
     if (board_) {
@@ -119,6 +120,14 @@ void MotorBench::advance_to(double into_period_s)
     const double until_s = std::clamp(into_period_s, reached_s_, period_s_);
     board_->advance_raw(reached_s_, until_s);
     reached_s_ = until_s;
+}
+
+void MotorBench::set_brake(bool released, double into_period_s)
+{
+    brake_ = released;
+    if (board_) {
+        board_->command_brake(released, into_period_s);
+    }
 }
 
 void MotorBench::set_chopper(bool on, double into_period_s)

@@ -29,7 +29,9 @@ public:
     /// Opens or frees legs, this long after the tick.
     void set_legs(const std::array<bool, 3> &enabled, double into_period_s);
 
-    /// The chopper's output, this long after the tick.
+    /// The holding brake's output, this long after the tick.
+    void set_brake(bool released, double into_period_s);
+    /// The chopper's output, likewise.
     void set_chopper(bool on, double into_period_s);
 
     /// Number of the present tick; -1 before the first.
@@ -82,6 +84,10 @@ public:
     {
         return board_.get();
     }
+    const Board *board() const
+    {
+        return board_.get();
+    }
     /// Stops the encoder's tracks.
     void stick_encoder()
     {
@@ -102,6 +108,7 @@ private:
     PlantState               plant_state_;
     double                   peak_current_A_ = 0.0;
     std::array<bool, 3>      legs_{};
+    bool                     brake_             = false; ///< released
     bool                     chopper_           = false;
     double                   reached_s_         = 0.0; ///< how far into the period the plant is
     bool                     driven_while_held_ = false;

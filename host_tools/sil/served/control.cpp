@@ -20,6 +20,8 @@ using nlohmann::json;
 constexpr double rpm = 60.0 / (2.0 * 3.14159265358979323846);
 constexpr Range  dc_link_range_V{1.0, 1e4};
 constexpr Range  switch_range{-1e5, 1e5}; // turns
+constexpr Range  brake_range_Nm{0.0, 1e5};
+constexpr Range  brake_range_s{0.0, 10.0};
 // Measured with the shipped drive: with less, a third of a current or none is within the noise of the model.
 constexpr double telling_share = 0.1; // of the current limit
 // Chosen: slower, a turn takes more than a second.
@@ -138,6 +140,23 @@ void set_switch(const std::string &text, ServedDrive &drive)
     }
 }
 
+/// "holding_brake 3 0.05 0.03": N m, seconds to release and to close; "holding_brake 0": none.
+void set_holding_brake(const std::string &text, ServedDrive &drive)
+{
+    std::istringstream   in(text);
+    std::string          torque;
+    std::string          release;
+    std::string          close;
+    HoldingBrakeSettings brake;
+    in >> torque >> release >> close;
+    brake.torque_Nm = number(torque, brake_range_Nm, "holding_brake");
+    if (brake.torque_Nm > 0.0) {
+        brake.release_time_s = number(release, brake_range_s, "holding_brake's release time");
+        brake.close_time_s   = number(close, brake_range_s, "holding_brake's close time");
+    }
+    drive.set_holding_brake(brake);
+}
+
 json state(const ServedDrive &drive, const ServerReport &server)
 {
     const PlantState  &now    = drive.plant_state();
@@ -160,6 +179,7 @@ json state(const ServedDrive &drive, const ServerReport &server)
                                  {"dc_link_V", now.dc_link_V},
                                  {"source_V", drive.source_V()},
                                  {"bridge_on", drive.bridge_on()},
+                                 {"holding_brake_closed", drive.brake_is_closed()},
                                  {"broken", broken(drive)},
                                  {"note", note(drive)},
                                  {"can_fault", can_fault(drive)},
@@ -253,6 +273,8 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         set_can_fault(rest, drive);
     } else if (word == "switch") {
         set_switch(rest, drive);
+    } else if (word == "holding_brake") {
+        set_holding_brake(rest, drive);
     } else if (word == "mend") {
         drive.mend();
     } else if (word == "power_cycle") {
@@ -260,10 +282,9 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
     } else if (word == "trace") {
         return trace(record, number(rest, {0.0, longest_record_s}, "trace"));
     } else if (word != "state") {
-        throw InputError(
-            fmt::format("\"{}\" is not a command: load, dc_link, fault, can, switch, mend, "
-                        "power_cycle, state, trace",
-                        word));
+        throw InputError(fmt::format("\"{}\" is not a command: load, dc_link, fault, can, switch, "
+                                     "holding_brake, mend, power_cycle, state, trace",
+                                     word));
     }
     return state(drive, server);
 }

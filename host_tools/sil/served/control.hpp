@@ -7,6 +7,7 @@
 ///     dc_link 280                                V of the supply
 ///     fault kind = "current_zero", phase = "a"   keys as in a scenario's [[fault]], without the time
 ///     can open                                   a fault of the CAN cable: open, shorted, dominant; none
+///     holding_brake 3 0.05 0.03                  N m of a brake at the drive's output, s to release and to close; 0: none
 ///     mend                                       nothing is broken, load 0; without the bridge the shaft comes to rest
 ///     power_cycle                                off and on
 ///     state                                      the motor and the bench now

@@ -133,6 +133,7 @@ void ServedDrive::power_up(bool after_reset)
 {
     before_s_ += device_ ? device_->time_s() : 0.0;
     device_.reset(); // the registers exist once
+    surroundings_.brake_changes(false, 0.0);
     broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
                                  [](const InjectedFault &f) { return needs_processor(f.kind); }),
                   broken_.end());

@@ -101,6 +101,20 @@ public:
     {
         return switches_;
     }
+    /// A brake at the drive's output, closed now.
+    void set_holding_brake(const HoldingBrakeSettings &settings)
+    {
+        bench_.board()->set_holding_brake(settings);
+    }
+    bool brake_is_closed() const
+    {
+        return bench_.board()->brake_is_closed();
+    }
+    /// The trip input, TZ1, until a reset.
+    void set_trip_input(bool active)
+    {
+        device_->set_fault_pin(active);
+    }
     /// Turns of the shaft from the index mark.
     double turns() const;
     /// Voltage of the supply; the dc link's own is in plant_state().

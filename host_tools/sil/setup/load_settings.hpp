@@ -28,4 +28,11 @@ struct BrakeSettings {
     double            drag_Nm         = 0.0; ///< without current: powder, seals, bearings
 };
 
+/// A brake on the shaft that a spring closes and a coil releases.
+struct HoldingBrakeSettings {
+    double torque_Nm      = 0.0; ///< dry friction while it is closed; 0: no brake
+    double release_time_s = 0.0; ///< from the output to the open brake
+    double close_time_s   = 0.0; ///< from the output to the full torque
+};
+
 } // namespace sdre

@@ -22,6 +22,9 @@ static void register_types(void)
     IS(app_registers_request_t, objects.accel_e_radps2, float);
     IS(app_registers_request_t, objects.bounds.current_A, float);
     IS(app_registers_request_t, objects.bounds.speed_m_radps, float);
+    IS(app_registers_request_t, objects.brake_close_ms, uint16_t);
+    IS(app_registers_request_t, objects.brake_release_ms, uint16_t);
+    IS(app_registers_request_t, objects.brake_used, uint16_t);
     IS(app_registers_request_t, objects.controlword, uint16_t);
     IS(app_registers_request_t, objects.current_max_A, float);
     IS(app_registers_request_t, objects.decel_e_radps2, float);
@@ -73,6 +76,7 @@ static void register_types(void)
     IS(app_registers_request_t, units.polarity, uint16_t);
     IS(app_status_t, align_stage, app_align_stage_t);
     IS(app_status_t, board_faults, uint16_t);
+    IS(app_status_t, brake, app_brake_state_t);
     IS(app_status_t, commission.found.coulomb_Nm.error, float);
     IS(app_status_t, commission.found.coulomb_Nm.value, float);
     IS(app_status_t, commission.found.counts_per_turn, int32_t);
@@ -168,6 +172,7 @@ static void register_types(void)
     IS(drive_config_t, ts_s, float);
     FITS(app_align_stage_t);
     FITS(app_angle_reference_t);
+    FITS(app_brake_state_t);
     FITS(app_fault_t);
     FITS(app_homing_stage_t);
     FITS(app_mode_t);

@@ -94,7 +94,7 @@ static const int other[][3] = {
     {288, -1, 7},    {289, -1, 125}, {320, -1, 46},       {321, -1, 9},   {322, 0, 5000},
     {324, -1, 2},    {325, -1, 224}, {326, 65535, 65486}, {328, 1, 77},   {352, -1, 34},
     {353, 0, 900},   {355, 0, 50},   {357, 0, 4000},      {359, 0, 250},  {361, -1, 300},
-    {362, -1, 5},    {363, -1, 2}};
+    {362, -1, 5},    {363, -1, 2},   {384, -1, 1},        {385, -1, 250}, {386, -1, 77}};
 
 #define OTHERS ((int)(sizeof other / sizeof other[0]))
 #define ROOM   (2 + (3 * (OTHERS + 4))) /* words of a record, with some more parameters */
@@ -233,7 +233,7 @@ static void test_parameters_that_need_a_stop_are_refused_while_enabled(void)
         TEST_ASSERT_EQUAL_INT(needs ? APP_REGISTERS_BUSY : APP_REGISTERS_OK, result);
         refused += needs ? 1 : 0;
     }
-    TEST_ASSERT_EQUAL_INT(8, refused); /* the line, and units */
+    TEST_ASSERT_EQUAL_INT(9, refused); /* the line, units, and whether there is a brake */
     TEST_ASSERT_EQUAL_UINT32(115200UL, registers.requested.line.baud_Bd);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Generated from firmware/app/registers/registers.toml and the words of sdre_drive. Do not edit: host_tools/registers/generate.py.
 
-export const DIGEST = "300359b6";
+export const DIGEST = "d9671dda";
 export const VERSION = "1.0.0";
 export const GROUPS = {
   "COMMAND": {"space": "holding", "registers": [["CONTROLWORD", 0, "u16", 0, "bits"], ["MODE_OF_OPERATION", 1, "i16", 0, ""], ["SPEED", 2, "i32", 0.1, "rad/s electrical"], ["SPEED_RPM", 4, "i32", 0.1, "r/min"], ["SPEED_RPM_16", 6, "i16", 1.0, "r/min"], ["ACCELERATION", 7, "u32", 1.0, "rad/s2 electrical"], ["DECELERATION", 9, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_DECELERATION", 11, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_OPTION", 13, "i16", 0, ""], ["SHUTDOWN_OPTION", 14, "i16", 0, ""], ["DISABLE_OPTION", 15, "i16", 0, ""], ["LOST_OPTION", 16, "i16", 0, ""], ["MAX_CURRENT", 17, "i32", 0.001, "A"], ["SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"], ["COMMISSION_CURRENT", 20, "u16", 0.01, "A"], ["COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"], ["INERTIA_START", 22, "u16", 0, "0.001"]]},
@@ -15,6 +15,7 @@ export const GROUPS = {
   "CAN": {"space": "holding", "registers": [["CAN_NODE", 288, "u16", 0, ""], ["CAN_RATE", 289, "u16", 0, "kbit/s"]]},
   "UNITS": {"space": "holding", "registers": [["GEAR_MOTOR", 320, "u16", 0, "turns"], ["GEAR_SHAFT", 321, "u16", 0, "turns"], ["FEED", 322, "u32", 0, "position units"], ["FEED_SHAFT", 324, "u16", 0, "turns"], ["POLARITY", 325, "u16", 0, "bits"], ["POSITION_LEAST", 326, "i32", 0, "position units"], ["POSITION_MOST", 328, "i32", 0, "position units"]]},
   "HOMING": {"space": "holding", "registers": [["HOMING_METHOD", 352, "i16", 0, ""], ["HOMING_SPEED_SWITCH", 353, "u32", 0.1, "r/min"], ["HOMING_SPEED_ZERO", 355, "u32", 0.1, "r/min"], ["HOMING_ACCELERATION", 357, "u32", 1.0, "rad/s2 electrical"], ["HOME_OFFSET", 359, "i32", 0, "position units"], ["HOMING_TIME", 361, "u16", 0.1, "s"], ["INPUTS_USED", 362, "u16", 0, "bits"], ["INPUTS_INVERTED", 363, "u16", 0, "bits"]]},
+  "BRAKE": {"space": "holding", "registers": [["BRAKE_USED", 384, "u16", 0, ""], ["BRAKE_RELEASE_TIME", 385, "u16", 0, "ms"], ["BRAKE_CLOSE_TIME", 386, "u16", 0, "ms"]]},
   "LIVE": {"space": "input", "registers": [["STATUSWORD", 0, "u16", 0, "bits"], ["MODE_NOW", 1, "i16", 0, ""], ["ERROR_CODE", 2, "u16", 0, ""], ["MODE", 3, "u16", 0, ""], ["FAULT", 4, "u16", 0, ""], ["DRIVE_FAULT", 5, "u16", 0, ""], ["BOARD_FAULTS", 6, "u16", 0, "bits"], ["CONDITIONS", 7, "u16", 0, "bits"], ["REFERENCE", 8, "u16", 0, ""], ["ALIGN_STAGE", 9, "u16", 0, ""], ["SPEED_NOW", 10, "i32", 0.1, "rad/s electrical"], ["SPEED_NOW_RPM", 12, "i32", 0.1, "r/min"], ["SPEED_DEMAND_RPM", 14, "i32", 0.1, "r/min"], ["IQ", 16, "i32", 0.001, "A"], ["ID", 18, "i32", 0.001, "A"], ["IQ_REF", 20, "i32", 0.001, "A"], ["ID_REF", 22, "i32", 0.001, "A"], ["VQ", 24, "i16", 0.1, "V"], ["VD", 25, "i16", 0.1, "V"], ["DC_LINK", 26, "u16", 0.1, "V"], ["TEMPERATURE", 27, "i16", 0.1, "degC"], ["THETA", 28, "u16", 0.001, "rad"], ["POSITION", 29, "u16", 0, "counts"], ["CORRECTIONS", 30, "u16", 0, ""], ["ZERO_A", 31, "u16", 0.1, "codes"], ["ZERO_B", 32, "u16", 0.1, "codes"], ["CYCLES", 33, "u16", 0, "cycles"], ["CYCLES_WORST", 34, "u16", 0, "cycles"], ["TICKS", 35, "u32", 0, "control periods"], ["RESET_CAUSE", 37, "u16", 0, ""], ["PHASE_ERRORS", 38, "u16", 0, ""], ["IGNORED_ANGLES", 39, "u16", 0, "samples"], ["IGNORED_CURRENTS", 40, "u16", 0, "samples"], ["JUMPS", 41, "u16", 0, ""], ["MOTOR_HEAT", 42, "u16", 0.001, ""], ["INVERTER_HEAT", 43, "u16", 0.001, ""], ["DERATING", 44, "u16", 0.001, ""], ["FIRST_FAULT", 45, "u16", 0, ""], ["FIRST_MODE", 46, "u16", 0, ""], ["FIRST_DRIVE_FAULT", 47, "u16", 0, ""], ["FIRST_BOARD_FAULTS", 48, "u16", 0, "bits"], ["FIRST_IA", 49, "u16", 0, "codes"], ["FIRST_IB", 50, "u16", 0, "codes"], ["FIRST_DC_LINK", 51, "u16", 0, "codes"], ["FIRST_TEMPERATURE", 52, "u16", 0, "codes"], ["FIRST_POSITION", 53, "u16", 0, "counts"], ["FIRST_INDEX", 54, "u16", 0, "counts"], ["FIRST_SAMPLE", 55, "u16", 0, "bits"], ["FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"], ["FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"], ["FIRST_TICKS", 60, "u32", 0, "control periods"]]},
   "POSITION": {"space": "input", "registers": [["POSITION_NOW", 64, "i32", 0, "position units"], ["POSITION_TARGET", 66, "i32", 0, "position units"], ["DISC_MAP", 68, "u16", 0, ""], ["HOMING_STAGE", 69, "u16", 0, ""], ["HOMED", 70, "u16", 0, ""], ["DIGITAL_INPUTS", 71, "u16", 0, "bits"]]},
   "SHAFT": {"space": "input", "registers": [["INERTIA_RATIO", 96, "u16", 0.001, ""], ["INERTIA_CHANGES", 97, "u16", 0, ""], ["RING_FREQUENCY", 98, "u16", 0.1, "Hz"], ["INERTIA_BELIEVED", 99, "u16", 0.001, ""]]},
@@ -26,6 +27,7 @@ export const GROUPS = {
   "MAP": {"space": "input", "registers": [["FOUND_MAP_STEP", 288, "dec", 0, "A"], ["FOUND_MAP_BIAS", 290, "dec", 0, "A"], ["FOUND_LD_POSITIVE_1", 292, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_2", 293, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_3", 294, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_4", 295, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_1", 296, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_2", 297, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_3", 298, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_4", 299, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_1", 300, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_2", 301, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_3", 302, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_4", 303, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_1", 304, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_2", 305, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_3", 306, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_4", 307, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_1", 308, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_2", 309, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_3", 310, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_4", 311, "u16", 0.0001, ""]]},
   "TORQUE_NOW": {"space": "input", "registers": [["TORQUE_NOW", 320, "i16", 0.001, "of RATED_TORQUE"], ["TORQUE_DEMAND", 321, "i16", 0.001, "of RATED_TORQUE"], ["RATED_CURRENT", 322, "u32", 0.001, "A"], ["RATED_TORQUE", 324, "u32", 0.001, "N m"]]},
   "CHOPPER_NOW": {"space": "input", "registers": [["CHOPPER_STATE", 416, "u16", 0, ""], ["CHOPPER_HEAT", 417, "u16", 0.001, ""], ["CHOPPER_ON", 418, "u16", 0.1, "V"], ["CHOPPER_OFF", 419, "u16", 0.1, "V"]]},
+  "BRAKE_NOW": {"space": "input", "registers": [["BRAKE_STATE", 448, "u16", 0, ""], ["DIGITAL_OUTPUTS", 449, "u16", 0, "bits"]]},
 };
 export const PARAMETERS = [
   {"name": "ACCELERATION", "low": 0, "high": 1000000.0, "default": 0.0, "stopped": false, "text": "away from zero speed; 0: the drive's limit", "choices": []},
@@ -70,6 +72,9 @@ export const PARAMETERS = [
   {"name": "HOMING_TIME", "low": 0.1, "high": 6000, "default": 60.0, "stopped": false, "text": "after it homing has failed", "choices": []},
   {"name": "INPUTS_USED", "low": 0, "high": 7, "default": 0.0, "stopped": false, "text": "1 negative, 2 positive limit switch, 4 home switch. An input that is not used is never active.", "choices": []},
   {"name": "INPUTS_INVERTED", "low": 0, "high": 7, "default": 0.0, "stopped": false, "text": "0: high or open is active, 1: low. With 0 a contact that opens is active, and so is a broken wire.", "choices": []},
+  {"name": "BRAKE_USED", "low": 0, "high": 1, "default": 0.0, "stopped": true, "text": "1: a holding brake at its output. [Holding brake](#holding-brake) describes it.", "choices": []},
+  {"name": "BRAKE_RELEASE_TIME", "low": 0, "high": 5000, "default": 100.0, "stopped": false, "text": "from the output to the open brake. Set-points act after it.", "choices": []},
+  {"name": "BRAKE_CLOSE_TIME", "low": 0, "high": 5000, "default": 100.0, "stopped": false, "text": "from the output to the closed brake. The bridge goes off after it.", "choices": []},
 ];
 export const PARAMETER_GROUPS = [
   "COMMAND",
@@ -81,6 +86,7 @@ export const PARAMETER_GROUPS = [
   "CAN",
   "UNITS",
   "HOMING",
+  "BRAKE",
 ];
 export const SIGNALS = [
   {"name": "NONE", "unit": ""},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/f28335/chopper_unit.hpp"
+#include "sil/f28335/hold_unit.hpp"
 
 #include <algorithm>
 
@@ -8,27 +8,34 @@
 namespace sdre::f28335 {
 namespace {
 
-constexpr unsigned clears_at_cmpa = 1U << 4;
+constexpr unsigned      clears_at_cmpa = 1U << 4;
+constexpr std::uint16_t flag_ost       = 4;
 
 } // namespace
 
-bool ChopperUnit::running() const
+bool HoldUnit::clocked() const
 {
-    return SysCtrlRegs.PCLKCR1.bit.EPWM5ENCLK != 0U && SysCtrlRegs.PCLKCR0.bit.TBCLKSYNC != 0U &&
+    return (SysCtrlRegs.PCLKCR1.all & (1U << (number_ - 1))) != 0U;
+}
+
+bool HoldUnit::running() const
+{
+    return clocked() && SysCtrlRegs.PCLKCR0.bit.TBCLKSYNC != 0U &&
            r_.TBCTL.bit.CTRMODE == TB_COUNT_UP && r_.TBPRD != 0U;
 }
 
-int ChopperUnit::cycles_per_count() const
+int HoldUnit::cycles_per_count() const
 {
     const int high = r_.TBCTL.bit.HSPCLKDIV;
     return (high == 0 ? 1 : 2 * high) << r_.TBCTL.bit.CLKDIV;
 }
 
-void ChopperUnit::check_settings(Findings &findings, double time_s) const
+void HoldUnit::check_settings(Findings &findings, double time_s) const
 {
     const auto refuse = [&](bool wrong, const char *what) {
         if (wrong) {
-            findings.add(Finding::unsupported, fmt::format("EPwm5Regs: {}", what), time_s);
+            findings.add(Finding::unsupported, fmt::format("EPwm{}Regs: {}", number_, what),
+                         time_s);
         }
     };
     const unsigned mode = r_.TBCTL.bit.CTRMODE;
@@ -41,21 +48,33 @@ void ChopperUnit::check_settings(Findings &findings, double time_s) const
     refuse(r_.AQCSFRC.all != 0U || (r_.AQSFRC.all & ~0x7U) != 0U,
            "software forces output A once, or not at all");
     refuse(r_.DBCTL.all != 0U || r_.PCCTL.all != 0U, "dead band and chopper are not modelled");
-    refuse(r_.TZSEL.all != 0U || r_.TZFRC.all != 0U, "trips are not modelled");
+    refuse((r_.TZSEL.all & 0x3EFFU) != 0U || r_.TZEINT.all != 0U,
+           "of the trips only OSHT1 is modelled");
+    refuse(r_.TZSEL.all != 0U && r_.TZCTL.bit.TZA != TZ_FORCE_LO, "a trip forces A low");
     refuse(r_.ETSEL.all != 0U, "events are not modelled");
 }
 
-void ChopperUnit::present()
+void HoldUnit::present()
 {
     r_.TBCTR       = static_cast<std::uint16_t>(position_ / cycles_per_count());
     presented_ctr_ = r_.TBCTR;
 }
 
-void ChopperUnit::sync(Findings &findings, double time_s)
+void HoldUnit::sync_trip(bool fault_pin_low)
 {
-    if (SysCtrlRegs.PCLKCR1.bit.EPWM5ENCLK == 0U) {
+    one_shot_ = one_shot_ && (r_.TZCLR.all & flag_ost) == 0U;
+    one_shot_ = one_shot_ || r_.TZFRC.bit.OST != 0U || (fault_pin_low && r_.TZSEL.bit.OSHT1 != 0U);
+    r_.TZCLR.all = 0U;
+    r_.TZFRC.all = 0U;
+    r_.TZFLG.all = one_shot_ ? flag_ost : std::uint16_t{0};
+}
+
+void HoldUnit::sync(bool fault_pin_low, Findings &findings, double time_s)
+{
+    if (!clocked()) {
         return;
     }
+    sync_trip(fault_pin_low);
     check_settings(findings, time_s);
     if (r_.TBCTR != presented_ctr_) {
         position_ = static_cast<std::int64_t>(r_.TBCTR) * cycles_per_count();
@@ -70,7 +89,7 @@ void ChopperUnit::sync(Findings &findings, double time_s)
     present();
 }
 
-std::int64_t ChopperUnit::cycles_to_event() const
+std::int64_t HoldUnit::cycles_to_event() const
 {
     if (!high_ || !running() || r_.AQCTLA.all != clears_at_cmpa) {
         return -1;
@@ -81,7 +100,7 @@ std::int64_t ChopperUnit::cycles_to_event() const
     return left > 0 ? left : left + turn;
 }
 
-void ChopperUnit::step(std::int64_t cycles)
+void HoldUnit::step(std::int64_t cycles)
 {
     if (!running()) {
         return;
