@@ -292,10 +292,9 @@ static void work_at_rest(app_mode_t mode)
 
 static void drive_brake(bool turn)
 {
-    app_brake_t *const b = &tick_side.modes.brake;
+    const app_brake_t *const b = &tick_side.modes.brake;
 
-    app_brake_tick(b, &tick_side.requested, app_modes_brake(&tick_side.modes), turn,
-                   tick_side.drive->ts_s);
+    app_modes_brake(&tick_side.modes, &tick_side.requested, turn, tick_side.drive->ts_s);
     tick_side.control.braked = app_brake_may_hold(b);
     board_brake_write(app_brake_output(b));
 }

@@ -81,7 +81,7 @@ typedef struct {
     law_aim_t           aim;          /**< to_position or to_torque, to the drive */
     torque_command_t    to_torque;    /**< torque command to the drive */
     uint32_t            torque_ticks; /**< of the last period that followed a torque */
-    app_brake_t         brake;        /**< its app_brake_tick() is of app.c */
+    app_brake_t         brake;
 #if BOARD_CHOPPER
     app_chopper_t chopper; /**< its app_chopper_tick() is of app.c */
 #endif
@@ -107,8 +107,9 @@ APP_PART bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 /** True if a temporary condition prevented a start in the previous tick. Context: control ISR. */
 bool app_modes_in_the_way(const app_modes_t *m);
 
-/** What the mode wants of the holding brake. Context: control ISR. */
-app_brake_ask_t app_modes_brake(const app_modes_t *m);
+/** Tells the holding brake what the mode wants of it, app_brake_tick(). Context: control ISR, every
+ * turn of the slow work. It runs from flash. */
+void app_modes_brake(app_modes_t *m, const app_objects_t *o, bool turn, float ts_s);
 
 /** Scope: 1 while the chopper's resistor is on. Context: control ISR. */
 static inline float app_modes_chopper(const app_modes_t *m)

@@ -164,7 +164,7 @@ bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_
 
 /* The law or the alignment's vector hold the shaft before the brake is released. A motor that is
  * commissioned is shorted until then. */
-app_brake_ask_t app_modes_brake(const app_modes_t *m)
+static app_brake_ask_t brake_ask(const app_modes_t *m)
 {
     const bool still =
         base_within(m->drive.answer.now.omega_e_radps, m->config->stop.still_e_radps);
@@ -184,6 +184,11 @@ app_brake_ask_t app_modes_brake(const app_modes_t *m)
         /* as it is */
     }
     return ask;
+}
+
+void app_modes_brake(app_modes_t *m, const app_objects_t *o, bool turn, float ts_s)
+{
+    app_brake_tick(&m->brake, o, brake_ask(m), turn, ts_s);
 }
 
 /* An unknown temperature does not prevent a start; it is a fault of the run. */
