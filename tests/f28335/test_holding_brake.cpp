@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "can_client.hpp"
 #include "position_client.hpp"
 
 extern "C" {
@@ -352,4 +353,40 @@ TEST_F(BrakedShaft, WithoutTheParameterTheOutputStaysLow)
     pass(0.3);
     EXPECT_EQ(input(APP_REGISTERS_BRAKE_STATE), APP_BRAKE_NONE);
     EXPECT_TRUE(std::isnan(first([](const Moment &m) { return m.output; })));
+}
+
+namespace {
+
+class BrakedNode : public CanClient {
+protected:
+    static constexpr unsigned used_object  = 0x2000 + APP_REGISTERS_BRAKE_USED;
+    static constexpr unsigned state_object = 0x2800 + APP_REGISTERS_BRAKE_STATE;
+    static constexpr unsigned outputs      = 0x60FE;
+};
+
+} // namespace
+
+TEST_F(BrakedNode, ShowsTheBrakeAsADigitalOutput)
+{
+    served.set_holding_brake({3.0, release_s, close_s});
+    pass(0.4);
+    EXPECT_EQ(get(outputs, 0), 1U);
+    EXPECT_EQ(get(outputs, 1), 0U);
+    ASSERT_EQ(put(used_object, 0, 1, 2), no_abort);
+    EXPECT_EQ(get(outputs, 1), 1U);
+    EXPECT_EQ(put(outputs, 1, 0, 4), 0x06010002U); // read only
+    enable(APP_CONTROL_PROFILE_VELOCITY);
+    pass(0.2);
+    EXPECT_EQ(get(state_object), APP_BRAKE_RELEASED);
+    EXPECT_EQ(get(outputs, 1), 0U);
+    EXPECT_EQ(put(used_object, 0, 0, 2), 0x08000022U); // not in this state
+    ASSERT_EQ(put(0x6040, 0, 0x07, 2), no_abort);
+    pass(0.05);
+    EXPECT_EQ(get(state_object), APP_BRAKE_CLOSING);
+    EXPECT_EQ(get(outputs, 1), 1U);
+    EXPECT_TRUE(served.bridge_on());
+    pass(0.2);
+    EXPECT_EQ(get(state_object), APP_BRAKE_CLOSED);
+    EXPECT_FALSE(served.bridge_on());
+    expect_no_findings();
 }

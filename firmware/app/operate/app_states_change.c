@@ -168,18 +168,19 @@ static app_brake_ask_t brake_ask(const app_modes_t *m)
 {
     const bool still =
         base_within(m->drive.answer.now.omega_e_radps, m->config->stop.still_e_radps);
+    const bool aligns = m->mode == APP_MODE_ALIGN;
+    const bool vector =
+        aligns && ((m->align.stage == APP_ALIGN_SWEEP) || (m->align.stage == APP_ALIGN_SETTLE));
     app_brake_ask_t ask = APP_BRAKE_KEEP;
 
     if (!m->gate_on || (m->mode == APP_MODE_FAULT)) {
         ask = APP_BRAKE_BRIDGE_OFF;
-    } else if ((m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_COMMISSION)) {
+    } else if ((m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_COMMISSION) || vector) {
         ask = APP_BRAKE_RELEASE;
     } else if (m->mode == APP_MODE_STOP) {
         ask = still ? APP_BRAKE_CLOSE : APP_BRAKE_KEEP;
-    } else if ((m->mode == APP_MODE_ALIGN) && (m->align.stage == APP_ALIGN_DONE)) {
+    } else if (aligns && (m->align.stage == APP_ALIGN_DONE)) {
         ask = APP_BRAKE_CLOSE;
-    } else if ((m->mode == APP_MODE_ALIGN) && (m->align.stage > APP_ALIGN_RAMP)) {
-        ask = APP_BRAKE_RELEASE;
     } else {
         /* as it is */
     }

@@ -840,6 +840,41 @@ static void test_homing_is_a_run_of_its_own(void)
     TEST_ASSERT_EQUAL_INT(APP_HOMING_IDLE, control.homing.stage);
 }
 
+/* The reference is zero and the run goes on, whatever the mode; then the mode has it. */
+static void test_no_mode_moves_a_shaft_that_the_brake_may_hold(void)
+{
+    static const int16_t modes[] = {APP_CONTROL_PROFILE_POSITION, APP_CONTROL_PROFILE_VELOCITY,
+                                    APP_CONTROL_PROFILE_TORQUE,   APP_CONTROL_HOMING,
+                                    APP_CONTROL_CYCLIC_POSITION,  APP_CONTROL_CYCLIC_VELOCITY,
+                                    APP_CONTROL_CYCLIC_TORQUE};
+
+    for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
+        hold_position(777, 0.0f);
+        wanted.homing_method       = 34;
+        wanted.homing_zero_e_radps = 10.0f;
+        wanted.omega_e_radps       = 100.0f;
+        wanted.torque_share        = 0.5f;
+        wanted.mode_of_operation   = modes[i];
+        control.braked             = true;
+        ticks(APP_CONTROL_ENABLE_OPERATION, 3);
+        wanted.target_cnt = 10000L;
+        wanted.target_number++;
+        for (int n = 0; n < 100; n++) {
+            tick(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT);
+            TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+            TEST_ASSERT_TRUE(out.run);
+        }
+        TEST_ASSERT_FALSE(app_homing_moves(control.homing.stage));
+        control.braked = false;
+        ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 100);
+        const bool speed = (modes[i] == APP_CONTROL_HOMING) || app_control_is_speed(modes[i]);
+        TEST_ASSERT_EQUAL_INT(speed, out.follows == APP_FOLLOWS_SPEED);
+        TEST_ASSERT_EQUAL_INT(speed, out.omega_e_radps > 1.0f);
+        setUp();
+    }
+}
+
 /* Motor's sense of what a run is asked for, by mode of operation. */
 static void ask_for(int16_t mode, int way)
 {
@@ -944,6 +979,7 @@ int main(void)
     RUN_TEST(test_homing_is_a_run_of_its_own);
     RUN_TEST(test_an_active_limit_switch_stops_the_motion_towards_it);
     RUN_TEST(test_a_limit_switch_stops_with_the_quick_deceleration);
+    RUN_TEST(test_no_mode_moves_a_shaft_that_the_brake_may_hold);
     RUN_TEST(test_a_set_point_leads_away_from_a_limit_switch);
     RUN_TEST(test_cyclic_position_takes_what_is_written_while_it_runs);
     RUN_TEST(test_set_points_of_a_path_keep_within_the_limits);

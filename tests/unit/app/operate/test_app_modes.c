@@ -1539,6 +1539,78 @@ static void test_a_run_that_ends_a_commissioning_needs_an_edge(void)
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
 }
 
+/* The state that a mode with the bridge on or off makes of a brake after the shortest times. */
+static app_brake_state_t brake_after(app_brake_state_t before, float omega_e_radps)
+{
+    const app_objects_t o = {.brake_used = 1U};
+
+    modes.brake.state                    = before;
+    modes.brake.left                     = 50U;
+    modes.drive.answer.now.omega_e_radps = omega_e_radps;
+    for (int n = 0; n < 200; n++) {
+        app_modes_brake(&modes, &o, true, drive_config.ts_s);
+    }
+    return modes.brake.state;
+}
+
+static void test_each_mode_asks_for_its_state_of_the_brake(void)
+{
+    const float turns = 1.1f * config.stop.still_e_radps;
+
+    for (int mode = APP_MODE_BOOT; mode <= (int)APP_MODE_COMMISSION; mode++) {
+        for (int stage = APP_ALIGN_WATCH; stage <= (int)APP_ALIGN_FAILED; stage++) {
+            const bool vector = (stage == (int)APP_ALIGN_SWEEP) || (stage == (int)APP_ALIGN_SETTLE);
+            const bool frees  = (mode == (int)APP_MODE_RUN) || (mode == (int)APP_MODE_COMMISSION) ||
+                               ((mode == (int)APP_MODE_ALIGN) && vector);
+            const bool closes = (mode == (int)APP_MODE_FAULT) ||
+                                ((mode == (int)APP_MODE_ALIGN) && (stage == (int)APP_ALIGN_DONE));
+
+            modes.mode        = (app_mode_t)mode;
+            modes.align.stage = (app_align_stage_t)stage;
+            modes.gate_on     = true;
+            TEST_ASSERT_EQUAL_INT(frees ? APP_BRAKE_RELEASED : APP_BRAKE_CLOSED,
+                                  brake_after(APP_BRAKE_CLOSED, turns));
+            TEST_ASSERT_EQUAL_INT(closes ? APP_BRAKE_CLOSED : APP_BRAKE_RELEASED,
+                                  brake_after(APP_BRAKE_RELEASED, turns));
+            TEST_ASSERT_EQUAL_INT(
+                (closes || (mode == (int)APP_MODE_STOP)) ? APP_BRAKE_CLOSED : APP_BRAKE_RELEASED,
+                brake_after(APP_BRAKE_RELEASED, 0.9f * config.stop.still_e_radps));
+            modes.gate_on = false;
+            TEST_ASSERT_EQUAL_INT(APP_BRAKE_CLOSED, brake_after(APP_BRAKE_RELEASED, 0.0f));
+        }
+    }
+}
+
+/* Whatever the drive file says of the end of a run, and without a brake as it says. */
+static void test_a_withdrawn_run_waits_until_the_brake_has_closed(void)
+{
+    for (int state = APP_BRAKE_NONE; state <= (int)APP_BRAKE_CLOSING; state++) {
+        init();
+        go_run();
+        modes.brake.state = (app_brake_state_t)state;
+        in.command.run    = false;
+        for (int n = 0; n < 50; n++) {
+            out = app_modes_tick(&modes, &in);
+            TEST_ASSERT_EQUAL_INT((state > (int)APP_BRAKE_CLOSED), out.gate_enable);
+        }
+        TEST_ASSERT_EQUAL_INT((state > (int)APP_BRAKE_CLOSED) ? APP_MODE_STOP : APP_MODE_READY,
+                              modes.mode);
+        modes.brake.state = APP_BRAKE_CLOSED;
+        tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+        assert_open();
+    }
+}
+
+static void test_a_fault_does_not_wait_for_the_brake(void)
+{
+    go_run();
+    modes.brake.state = APP_BRAKE_RELEASED;
+    raw.valid         = false;
+    tick();
+    assert_fault(APP_FAULT_SAMPLE);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -1615,5 +1687,8 @@ int main(void)
     RUN_TEST(test_a_request_together_with_a_run_is_a_run);
     RUN_TEST(test_a_request_that_rises_in_a_run_needs_an_edge_after_it);
     RUN_TEST(test_a_run_that_ends_a_commissioning_needs_an_edge);
+    RUN_TEST(test_each_mode_asks_for_its_state_of_the_brake);
+    RUN_TEST(test_a_withdrawn_run_waits_until_the_brake_has_closed);
+    RUN_TEST(test_a_fault_does_not_wait_for_the_brake);
     return UNITY_END();
 }

@@ -169,6 +169,15 @@ static void test_bits_of_a_cyclic_position(void)
     s->mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
     s->arrived           = true;
     TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(REACHED | OF_MODE | 0x2000));
+    for (int n = APP_BRAKE_NONE; n <= (int)APP_BRAKE_CLOSING; n++) { /* it follows nothing yet */
+        s->brake = (app_brake_state_t)n;
+        TEST_ASSERT_EQUAL_HEX16(
+            ((n == (int)APP_BRAKE_NONE) || (n == (int)APP_BRAKE_RELEASED)) ? OF_MODE : 0,
+            statusword(REACHED | OF_MODE));
+        TEST_ASSERT_EQUAL_HEX16((n == (int)APP_BRAKE_CLOSED) || (n == (int)APP_BRAKE_CLOSING),
+                                app_registers_outputs(&registers));
+    }
+    s->brake  = APP_BRAKE_NONE;
     s->beyond = true;
     TEST_ASSERT_EQUAL_HEX16(OF_MODE | 0x2000, statusword(REACHED | OF_MODE | 0x2000));
     registers.requested.objects.controlword = 0x010FU; /* halt: reached when it stands */
