@@ -19,6 +19,7 @@ using namespace sdre;
 namespace {
 
 constexpr double load_Nm    = 0.8; // half of the rated torque
+constexpr double brake_Nm   = 3.0;
 constexpr double release_s  = 0.05;
 constexpr double close_s    = 0.03;
 constexpr int    release_ms = 60; // of the drive: some more than the brake needs
@@ -39,7 +40,7 @@ class BrakedShaft : public PositionClient {
 protected:
     BrakedShaft()
     {
-        served.set_holding_brake({3.0, release_s, close_s});
+        served.set_holding_brake({brake_Nm, release_s, close_s});
     }
     void after_period() override
     {
@@ -149,7 +150,7 @@ TEST_F(BrakedShaft, AStartHoldsTheLoadAndSetPointsWaitForTheRelease)
     EXPECT_NEAR(moments.back().speed_e_radps, 100.0, 5.0);
     EXPECT_EQ(input(APP_REGISTERS_DIGITAL_OUTPUTS), 0);
 
-    // What the shaft does while it stands: the load comes from the brake onto the motor.
+    // The load comes from the brake onto the motor.
     moments.erase(
         std::find_if(moments.begin(), moments.end(),
                      [&](const Moment &m) { return m.time_s >= output_s + 1e-3 * release_ms; }),
@@ -212,8 +213,8 @@ TEST_F(BrakedShaft, AFaultDropsTheLoadForTheTimeOfTheBrake)
     EXPECT_LE(first([](const Moment &m) { return !m.bridge; }), before_s + served.period_s());
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_FAULT);
     EXPECT_EQ(input(APP_REGISTERS_DIGITAL_OUTPUTS), 1);
-    EXPECT_GT(way(), 0.9 * fall_turns());
-    EXPECT_LT(way(), 2.0 * fall_turns()); // and the way in which the brake stops it
+    const double and_stops = brake_Nm / (brake_Nm - load_Nm); // the brake stops it
+    EXPECT_NEAR(way(), fall_turns() * and_stops, 0.05 * fall_turns());
     EXPECT_NEAR(moments.back().speed_e_radps, 0.0, 1e-9);
     served.set_trip_input(false);
 }
@@ -368,7 +369,7 @@ protected:
 
 TEST_F(BrakedNode, ShowsTheBrakeAsADigitalOutput)
 {
-    served.set_holding_brake({3.0, release_s, close_s});
+    served.set_holding_brake({brake_Nm, release_s, close_s});
     pass(0.4);
     EXPECT_EQ(get(outputs, 0), 1U);
     EXPECT_EQ(get(outputs, 1), 0U);

@@ -121,6 +121,11 @@ static void any_state(void)
     modes.reading.index_fault      = any_bool();
     modes.sum.on                   = any_bool();
     modes.sum_differs              = any_bool();
+    modes.chopper.present          = any_bool();
+    modes.chopper.on               = any_bool();
+    modes.chopper.hot              = any_bool();
+    modes.chopper.stuck            = any_bool();
+    modes.brake.state              = any_between(APP_BRAKE_NONE, APP_BRAKE_CLOSING);
 }
 
 static void is_count(uint16_t cnt)
@@ -147,6 +152,10 @@ void prove_app_tick(void)
     in.command.target.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     in.command.commission   = false; /* not proved: its own bounds and tests */
 
+    const app_objects_t objects = any_objects;
+
+    app_modes_brake(&modes, &objects, any_bool(), config.ts_s);
+    //@ check brake: APP_BRAKE_NONE <= modes.brake.state <= APP_BRAKE_CLOSING;
     const bridge_t     out = app_modes_tick(&modes, &in);
     const board_duty_t duty =
         app_gate_duty(&board_config.gate, board_config.board.duty_full_cnt, out.duty);
@@ -189,6 +198,7 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     control.velocity          = any_bool();
     control.limited           = any_bool();
     control.at_switch         = any_bool();
+    control.braked            = any_bool();
     control.homing.stage      = any_between(APP_HOMING_IDLE, APP_HOMING_FAILED);
     control.homing.start_high = any_bool();
     control.homing.reversed   = any_bool();

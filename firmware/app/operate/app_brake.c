@@ -9,12 +9,14 @@
  * does not stand. */
 #define STILL_TURNS 20U
 
+#define TURNS_MAX 60000.0f /* 5 s have 5000 */
+
 /* Turns of the slow work that last at least as long. */
 static uint16_t turns_of(uint16_t time_ms, float ts_s)
 {
     const float turns = (MS_s * (float)time_ms) / app_slow_s(ts_s);
 
-    return (uint16_t)(turns + 1.0f); /* a time of 5 s has 5000 of the shortest */
+    return (uint16_t)base_clamp(turns + 1.0f, 1.0f, TURNS_MAX);
 }
 
 static void enter(app_brake_t *b, app_brake_state_t state, uint16_t left)

@@ -26,7 +26,7 @@ typedef enum {
     APP_BRAKE_CLOSING    /**< output low, not long enough */
 } app_brake_state_t;
 
-/** What the modes want of it. */
+/** A mode wants one of these of it. */
 typedef enum {
     APP_BRAKE_BRIDGE_OFF = 0, /**< closed at once; the only instant at which it comes into use */
     APP_BRAKE_KEEP,

@@ -20,7 +20,8 @@ from sdre_drive.terminal import Json, out
 EPILOG = "\n\n".join(
     (
         "Examples: sdre-drive bench load 1.2 (a brake), or load -1.2 active (drives the shaft)",
-        "sdre-drive bench dc_link 280; mend; power_cycle; switch home 1 1.2 (turns)",
+        "sdre-drive bench dc_link 280; mend; power_cycle; switch home 1 1.2 (turns); "
+        "holding_brake 3 0.05 0.03 (N m, s to release and to close)",
         'sdre-drive bench break "motor wire a broken"; the names: ' + ", ".join(FAULTS),
     )
 )

@@ -6,7 +6,7 @@
 
 #define STILL_TURNS 20U
 
-/* What was asked for and what the output has done, kept beside the brake: the oracle. */
+/* The oracle keeps asks and output beside the brake. */
 typedef struct {
     bool     used;    /* when the bridge was last off */
     bool     high;    /* the output */
