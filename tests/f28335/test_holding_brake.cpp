@@ -24,6 +24,8 @@ constexpr double release_s  = 0.05;
 constexpr double close_s    = 0.03;
 constexpr int    release_ms = 60; // of the drive: some more than the brake needs
 constexpr int    close_ms   = 40;
+constexpr double slow_s     = 1.5; // longer than the vector of an alignment turns
+constexpr int    slow_ms    = 1600;
 constexpr double late_s     = 3e-3; // app_brake.h
 constexpr double pi         = 3.14159265358979323846;
 
@@ -31,6 +33,7 @@ struct Moment {
     double time_s;
     double turns;
     double speed_e_radps;
+    double current_A;
     bool   output;
     bool   closed;
     bool   bridge;
@@ -44,12 +47,14 @@ protected:
     }
     void after_period() override
     {
-        const Moment now{served.time_s(),
-                         served.turns(),
-                         served.plant_state().omega_e_radps,
-                         served.device().brake_is_released(),
-                         served.brake_is_closed(),
-                         served.bridge_on()};
+        const Moment now{
+            served.time_s(),
+            served.turns(),
+            served.plant_state().omega_e_radps,
+            std::hypot(served.plant_state().current_A.d, served.plant_state().current_A.q),
+            served.device().brake_is_released(),
+            served.brake_is_closed(),
+            served.bridge_on()};
         if (now.output && !now.bridge) {
             released_without_bridge++;
         }
@@ -62,10 +67,10 @@ protected:
             ADD_FAILURE() << f;
         }
     }
-    void use_brake()
+    void use_brake(std::uint16_t takes_ms = release_ms)
     {
         pass(0.4);
-        ASSERT_TRUE(write(APP_REGISTERS_BRAKE_USED, {1, release_ms, close_ms}));
+        ASSERT_TRUE(write(APP_REGISTERS_BRAKE_USED, {1, takes_ms, close_ms}));
         EXPECT_EQ(input(APP_REGISTERS_BRAKE_STATE), APP_BRAKE_CLOSED);
         EXPECT_EQ(input(APP_REGISTERS_DIGITAL_OUTPUTS), 1);
     }
@@ -111,6 +116,22 @@ protected:
             most = std::max(most, std::abs(m.turns - moments.front().turns));
         }
         return most;
+    }
+    /// The moment after this time at which the output goes low.
+    std::vector<Moment>::iterator expect_closed_before_the_bridge_is_off(double since_s)
+    {
+        const auto low = std::find_if(moments.begin(), moments.end(), [&](const Moment &m) {
+            return m.time_s > since_s && !m.output;
+        });
+        EXPECT_NE(low, moments.end());
+        const double low_s = low->time_s;
+        const double closed_s =
+            first([&](const Moment &m) { return m.time_s > low_s && m.closed; });
+        const double off_s = first([&](const Moment &m) { return m.time_s > low_s && !m.bridge; });
+        EXPECT_NEAR(closed_s, low_s + close_s, 2 * served.period_s());
+        EXPECT_GE(off_s, low_s + 1e-3 * close_ms);
+        EXPECT_LE(off_s, low_s + 1e-3 * close_ms + late_s);
+        return low;
     }
     template <typename Is> double first(const Is &is) const
     {
@@ -185,16 +206,7 @@ TEST_F(BrakedShaft, EachStopHoldsTheLoadUntilTheBrakeHasClosed)
         ASSERT_TRUE(control(row.word));
         ASSERT_TRUE(wait_for_mode(APP_MODE_READY));
         pass(0.1);
-        const double low_s =
-            first([&](const Moment &m) { return m.time_s > asked_s && !m.output; });
-        const double closed_s =
-            first([&](const Moment &m) { return m.time_s > low_s && m.closed; });
-        const double off_s = first([&](const Moment &m) { return m.time_s > low_s && !m.bridge; });
-        EXPECT_NEAR(closed_s, low_s + close_s, 2 * served.period_s());
-        EXPECT_GE(off_s, low_s + 1e-3 * close_ms);
-        EXPECT_LE(off_s, low_s + 1e-3 * close_ms + late_s);
-        const auto low = std::find_if(moments.begin(), moments.end(),
-                                      [&](const Moment &m) { return m.time_s >= low_s; });
+        const auto low = expect_closed_before_the_bridge_is_off(asked_s);
         EXPECT_LT(std::abs(low->speed_e_radps), 2.0);
         moments.erase(moments.begin(), low);
         EXPECT_LT(way(), 0.3 * degree);
@@ -298,31 +310,30 @@ TEST_F(BrakedShaft, ATorqueRunBeginsWithTheTorqueThatHeldTheLoad)
 
 TEST_F(BrakedShaft, AlignmentTurnsTheShaftUnderALoad)
 {
-    use_brake();
+    served.set_holding_brake({brake_Nm, slow_s, close_s});
+    use_brake(slow_ms);
     served.dynamometer().drive(0.1);
     start(APP_CONTROL_FIND_ANGLE);
-    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s));
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s + slow_s));
     EXPECT_EQ(input(APP_REGISTERS_REFERENCE), APP_ANGLE_ALIGNED);
     EXPECT_LT(way(), 0.6); // the vector's turn, and no fall
-    const double open_s = first([](const Moment &m) { return !m.closed; });
-    const double moves_s =
-        first([&](const Moment &m) { return std::abs(m.turns - moments.front().turns) > degree; });
-    EXPECT_GT(moves_s, open_s);
-    pass(0.2);
+    expect_closed_before_the_bridge_is_off(first([](const Moment &m) { return m.output; }));
     EXPECT_TRUE(served.brake_is_closed());
-    EXPECT_FALSE(served.bridge_on());
 }
 
-TEST_F(BrakedShaft, CommissioningReleasesIt)
+TEST_F(BrakedShaft, CommissioningReleasesItBeforeItHasCurrents)
 {
-    use_brake();
+    served.set_holding_brake({brake_Nm, slow_s, close_s});
+    use_brake(slow_ms);
     ASSERT_TRUE(write_one(APP_REGISTERS_COMMISSION_CURRENT, 200)); // 2 A
     ASSERT_TRUE(write_one(APP_REGISTERS_COMMISSION_SPEED, 1000));
     start(APP_CONTROL_COMMISSIONING);
-    talk(2.0);
+    talk(slow_s + 2.0);
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_COMMISSION);
     EXPECT_EQ(input(APP_REGISTERS_BRAKE_STATE), APP_BRAKE_RELEASED);
-    EXPECT_FALSE(served.brake_is_closed());
+    const double output_s  = first([](const Moment &m) { return m.output; });
+    const double current_s = first([](const Moment &m) { return m.current_A > 0.1; });
+    EXPECT_GE(current_s, output_s + 1e-3 * slow_ms);
     ASSERT_TRUE(control(APP_CONTROL_DISABLE_VOLTAGE));
     pass(0.1);
     EXPECT_FALSE(served.device().brake_is_released());

@@ -5,8 +5,8 @@
 
 #define MS_s 0.001f
 
-/* Chosen: 20 ms, four times the settling time of the shipped drive. A shaft that swings through zero
- * does not stand. */
+/* Chosen: 20 ms, four times the settling time of the shipped drive. A shaft that swings through
+ * zero does not stand. */
 #define STILL_TURNS 20U
 
 #define TURNS_MAX 60000.0f /* 5 s have 5000 */

@@ -97,7 +97,7 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     const bool              steady    = is_steady(c, seen, ask);
 
     if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation) &&
-        (o->inputs_used == 0U) && !c->braked) {
+        (o->inputs_used == 0U)) {
         keep_running(c, out);
         c->reset_high = reset_now;
         return;

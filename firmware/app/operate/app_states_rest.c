@@ -192,12 +192,15 @@ static bridge_t align_vector(app_modes_t *m, const app_modes_input_t *in)
  * was found the vector would turn it: there the shorted motor damps it. */
 static bridge_t hold_aligned(app_modes_t *m, const app_modes_input_t *in)
 {
-    if (m->angle.reference == APP_ANGLE_INDEX) {
-        return bridge_shorted();
-    }
-    const bridge_t out = align_vector(m, in);
+    bridge_t out = bridge_shorted();
 
-    return (m->align.stage == APP_ALIGN_FAILED) ? app_states_trip(m, in, APP_FAULT_ALIGN) : out;
+    if (m->angle.reference != APP_ANGLE_INDEX) {
+        out = align_vector(m, in);
+    }
+    if (m->align.stage == APP_ALIGN_FAILED) {
+        out = app_states_trip(m, in, APP_FAULT_ALIGN);
+    }
+    return out;
 }
 
 /* The angle is found. The bridge stays open until the sensors have read zero, as before any start.
@@ -227,11 +230,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (!drive_watches(m, in)) {
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
-    if ((m->align.stage == APP_ALIGN_DONE) && !app_brake_may_be_open(&m->brake)) {
-        return aligned(m, in);
-    }
     if (m->align.stage == APP_ALIGN_DONE) {
-        return hold_aligned(m, in);
+        return app_brake_may_be_open(&m->brake) ? hold_aligned(m, in) : aligned(m, in);
     }
     if (m->angle.reference ==
         APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
@@ -259,12 +259,10 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
 static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool goes_on = in->command.commission && !in->command.run;
-
-    if (goes_on && (m->commission.module.stage > COMMISSION_WATCH) &&
-        app_brake_may_hold(&m->brake)) {
-        return bridge_shorted();
-    }
-    const bridge_t out = app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
+    const bool waits =
+        goes_on && (m->commission.module.stage > COMMISSION_WATCH) && app_brake_may_hold(&m->brake);
+    const bridge_t out = waits ? bridge_shorted()
+                               : app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
 
     if (!goes_on || (m->commission.module.stage == COMMISSION_FINISHED)) {
         app_angle_drop(&m->angle);
