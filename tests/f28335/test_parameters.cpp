@@ -128,8 +128,8 @@ TEST_F(Parameters, APowerCutLeavesTheOldOrTheNewOnes)
     int before = 77;
     int kept   = 0;
     int taken  = 0;
-    // While it is erased; then while head and record are written, in 3.1 ms, a word in 50 us.
-    for (const double after_ms : {-1000.0, 0.0, 0.7, 1.4, 2.1, 2.8, 4.5, 7.0}) {
+    // While it is erased; then while head and record are written, in 7.3 ms, a word in 50 us.
+    for (const double after_ms : {-1000.0, 0.0, 1.6, 3.2, 4.8, 6.4, 10.0, 15.0}) {
         const double after_s = written_s + 1e-3 * after_ms;
         const int    next    = before + 1;
         ASSERT_TRUE(window(static_cast<std::uint16_t>(next)));
