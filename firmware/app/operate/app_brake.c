@@ -47,9 +47,7 @@ void app_brake_tick(app_brake_t *b, const app_objects_t *o, app_brake_ask_t ask,
     }
     if (ask == APP_BRAKE_BRIDGE_OFF) {
         bridge_off(b, o);
-    } else if (b->state == APP_BRAKE_NONE) {
-        /* none until the bridge is off */
-    } else if ((ask == APP_BRAKE_RELEASE) && !app_brake_output(b)) {
+    } else if ((ask == APP_BRAKE_RELEASE) && app_brake_may_hold(b) && !app_brake_output(b)) {
         enter(b, APP_BRAKE_RELEASING, turns_of(o->brake_release_ms, ts_s));
     } else if ((ask == APP_BRAKE_CLOSE) && closes(b, over)) {
         enter(b, APP_BRAKE_CLOSING, turns_of(o->brake_close_ms, ts_s));

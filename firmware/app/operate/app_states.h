@@ -33,6 +33,14 @@ const law_aim_t *app_states_aim(app_modes_t *m, const app_command_t *asked);
  * A torque needs the angle, and a speed is not what was asked for. It runs from flash. */
 bool app_states_gives_up(const app_modes_t *m);
 
+/** Executes a tick of the alignment's vector. */
+bridge_t app_states_align_vector(app_modes_t *m, const app_modes_input_t *in);
+
+/** Executes a tick of an alignment that is done, while the brake may still be open. The vector
+ * holds the shaft. Where the index was found the vector would turn it: there the shorted motor
+ * damps it. */
+bridge_t app_states_hold_aligned(app_modes_t *m, const app_modes_input_t *in);
+
 /** Enters a mode and clears its timer and sums. */
 void app_states_enter(app_modes_t *m, app_mode_t mode);
 

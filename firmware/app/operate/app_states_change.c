@@ -162,6 +162,25 @@ bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_
     return app_states_fault(m, in);
 }
 
+bridge_t app_states_align_vector(app_modes_t *m, const app_modes_input_t *in)
+{
+    return app_align_tick(&m->align, &m->drive.config->dead_time, m->sample.ia_A, m->sample.ib_A,
+                          m->sample.dc_link_V, in->raw->position_cnt);
+}
+
+bridge_t app_states_hold_aligned(app_modes_t *m, const app_modes_input_t *in)
+{
+    bridge_t out = bridge_shorted();
+
+    if (m->angle.reference != APP_ANGLE_INDEX) {
+        out = app_states_align_vector(m, in);
+    }
+    if (m->align.stage == APP_ALIGN_FAILED) {
+        out = app_states_trip(m, in, APP_FAULT_ALIGN);
+    }
+    return out;
+}
+
 /* The law or the alignment's vector hold the shaft before the brake is released. A motor that is
  * commissioned is shorted until then. */
 static app_brake_ask_t brake_ask(const app_modes_t *m)

@@ -182,27 +182,6 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     return bridge_shorted();
 }
 
-static bridge_t align_vector(app_modes_t *m, const app_modes_input_t *in)
-{
-    return app_align_tick(&m->align, &m->drive.config->dead_time, m->sample.ia_A, m->sample.ib_A,
-                          m->sample.dc_link_V, in->raw->position_cnt);
-}
-
-/* The angle is found, and the brake may still be open. The vector holds the shaft. Where the index
- * was found the vector would turn it: there the shorted motor damps it. */
-static bridge_t hold_aligned(app_modes_t *m, const app_modes_input_t *in)
-{
-    bridge_t out = bridge_shorted();
-
-    if (m->angle.reference != APP_ANGLE_INDEX) {
-        out = align_vector(m, in);
-    }
-    if (m->align.stage == APP_ALIGN_FAILED) {
-        out = app_states_trip(m, in, APP_FAULT_ALIGN);
-    }
-    return out;
-}
-
 /* The angle is found. The bridge stays open until the sensors have read zero, as before any start.
  * Then an alignment without run returns to READY, otherwise run starts. */
 static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
@@ -231,7 +210,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->align.stage == APP_ALIGN_DONE) {
-        return app_brake_may_be_open(&m->brake) ? hold_aligned(m, in) : aligned(m, in);
+        return app_brake_may_be_open(&m->brake) ? app_states_hold_aligned(m, in) : aligned(m, in);
     }
     if (m->angle.reference ==
         APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
@@ -242,7 +221,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (app_brake_may_hold(&m->brake)) {
         app_align_wait(&m->align);
     }
-    const bridge_t out = align_vector(m, in);
+    const bridge_t out = app_states_align_vector(m, in);
     if (m->align.stage == APP_ALIGN_FAILED) {
         return app_states_trip(m, in, APP_FAULT_ALIGN);
     }
