@@ -197,7 +197,7 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
         any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
     control.velocity          = any_bool();
     control.limited           = any_bool();
-    control.at_switch         = any_bool();
+    control.blocked           = any_bool();
     control.braked            = any_bool();
     control.homing.stage      = any_between(APP_HOMING_IDLE, APP_HOMING_FAILED);
     control.homing.start_high = any_bool();

@@ -38,9 +38,9 @@ static bool is_stopping(const app_control_t *c, app_control_ask_t ask)
 
 static float deceleration(const app_control_t *c, const app_objects_t *o)
 {
-    const bool fast = c->at_switch || ((c->state == APP_CONTROL_QUICK_STOP_ACTIVE) &&
-                                       ((o->quick_option == APP_CONTROL_QUICK_FAST) ||
-                                        (o->quick_option == APP_CONTROL_QUICK_FAST_STAY)));
+    const bool fast = c->blocked || ((c->state == APP_CONTROL_QUICK_STOP_ACTIVE) &&
+                                     ((o->quick_option == APP_CONTROL_QUICK_FAST) ||
+                                      (o->quick_option == APP_CONTROL_QUICK_FAST_STAY)));
     return fast ? o->quick_e_radps2 : o->decel_e_radps2;
 }
 
@@ -68,7 +68,7 @@ static void set_reference(app_control_t *c, const app_objects_t *o, const app_co
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
         const bool still = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT) ||
-                           (c->mode != APP_CONTROL_PROFILE_VELOCITY) || c->at_switch || c->braked;
+                           (c->mode != APP_CONTROL_PROFILE_VELOCITY) || c->blocked;
 
         set_ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
@@ -81,6 +81,7 @@ static void keep_running(app_control_t *c, app_command_t *out)
 {
     c->moved        = true;
     c->stopping     = false;
+    c->blocked      = false;
     c->follows      = APP_FOLLOWS_SPEED;
     c->asked        = true;
     out->run        = true;
@@ -97,7 +98,7 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     const bool              steady    = is_steady(c, seen, ask);
 
     if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation) &&
-        (o->inputs_used == 0U)) {
+        (o->inputs_used == 0U) && !c->braked) {
         keep_running(c, out);
         c->reset_high = reset_now;
         return;

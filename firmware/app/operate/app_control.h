@@ -65,7 +65,7 @@ typedef struct {
     float               down_e_radps; /**< its step down */
     app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
-    bool                at_switch;    /**< a limit switch stops the motion */
+    bool                blocked;      /**< a limit switch or the holding brake stops the motion */
     bool                braked;       /**< the holding brake may hold the shaft; of app.c */
     bool                holds;        /**< positions, cyclic velocity: the set-points have begun */
     app_setpoint_t      setpoint;

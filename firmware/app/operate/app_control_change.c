@@ -49,7 +49,7 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->follows           = APP_FOLLOWS_SPEED;
     c->holds             = false;
     c->limited           = false;
-    c->at_switch         = false;
+    c->blocked           = false;
     c->braked            = false;
     app_homing_reset(&c->homing);
     app_path_end(&c->path);
@@ -261,7 +261,7 @@ static bool follows_position(app_control_t *c, const app_objects_t *o,
         app_setpoint_start(&c->setpoint, o, seen->position);
         c->holds = true;
     }
-    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived || c->at_switch);
+    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived || c->blocked);
     return !halted;
 }
 
@@ -324,12 +324,12 @@ static bool is_at_switch(const app_control_t *c, const app_objects_t *o,
 app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
                                    const app_control_seen_t *seen)
 {
-    const bool    at_switch = is_at_switch(c, o, seen);
-    const bool    halt      = app_control_has(o->controlword, APP_CONTROL_HALT);
-    const bool    halted    = c->stopping || halt || at_switch || c->braked;
-    app_follows_t follows   = APP_FOLLOWS_SPEED;
+    const bool    blocked = is_at_switch(c, o, seen) || c->braked;
+    const bool    halt    = app_control_has(o->controlword, APP_CONTROL_HALT);
+    const bool    halted  = c->stopping || halt || blocked;
+    app_follows_t follows = APP_FOLLOWS_SPEED;
 
-    c->at_switch = at_switch;
+    c->blocked = blocked;
     if (app_control_is_torque(c->mode)) {
         follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_TORQUE : follows;
     } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {

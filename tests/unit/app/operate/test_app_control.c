@@ -840,6 +840,20 @@ static void test_homing_is_a_run_of_its_own(void)
     TEST_ASSERT_EQUAL_INT(APP_HOMING_IDLE, control.homing.stage);
 }
 
+static void test_a_switch_that_is_no_longer_used_lets_a_speed_go_on(void)
+{
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation = APP_CONTROL_PROFILE_VELOCITY;
+    wanted.inputs_used       = BOARD_INPUT_POSITIVE;
+    wanted.omega_e_radps     = 100.0f;
+    seen.inputs              = BOARD_INPUT_POSITIVE;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 100);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    wanted.inputs_used = 0U;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 100);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f, out.omega_e_radps);
+}
+
 /* The reference is zero and the run goes on, whatever the mode; then the mode has it. */
 static void test_no_mode_moves_a_shaft_that_the_brake_may_hold(void)
 {
@@ -914,7 +928,7 @@ static void test_an_active_limit_switch_stops_the_motion_towards_it(void)
             wanted.inputs_used          = used ? 3U : 0U;
             seen.inputs                 = (uint16_t)input;
             ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 3);
-            TEST_ASSERT_EQUAL_INT(ahead, control.at_switch);
+            TEST_ASSERT_EQUAL_INT(ahead, control.blocked);
             TEST_ASSERT_EQUAL_INT(ahead ? APP_FOLLOWS_SPEED : follows, out.follows);
             if (ahead || app_control_is_speed(modes[i])) {
                 TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, ahead ? 0.0f : (100.0f * (float)way),
@@ -979,6 +993,7 @@ int main(void)
     RUN_TEST(test_homing_is_a_run_of_its_own);
     RUN_TEST(test_an_active_limit_switch_stops_the_motion_towards_it);
     RUN_TEST(test_a_limit_switch_stops_with_the_quick_deceleration);
+    RUN_TEST(test_a_switch_that_is_no_longer_used_lets_a_speed_go_on);
     RUN_TEST(test_no_mode_moves_a_shaft_that_the_brake_may_hold);
     RUN_TEST(test_a_set_point_leads_away_from_a_limit_switch);
     RUN_TEST(test_cyclic_position_takes_what_is_written_while_it_runs);
