@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the counters and registers of a processor hold. A board file names its processor; no other part of the host tools
-/// knows one by name, but the virtual device of each.
+/// This file tells what the counters and registers of a processor hold. A board file names its processor. No other part of
+/// the host tools knows one by name, but its virtual device.
 #pragma once
 
 #include <string>
@@ -31,10 +31,10 @@ const Processor *find_processor(const std::string &name);
 /// "a, b".
 std::string processor_names();
 
-/// Of a board file that does not name one, and of a drive without board.
+/// The one that a board file without the key has, and a drive without board.
 const Processor &default_processor();
 
-/// Of the drive's board.
+/// The one on the drive's board.
 const Processor &processor_of(const Drive &drive);
 
 } // namespace sdre
