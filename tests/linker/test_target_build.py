@@ -368,7 +368,7 @@ class TargetBuild(unittest.TestCase):
         self.assertIn(str(own / "gain_tables.c"), sources)
         self.assertIn(str(own / "board_config.c"), sources)
         self.assertNotIn(str(ROOT / "firmware" / "config" / "gain_tables.c"), sources)
-        main = next(c["command"] for c in commands if c["file"].endswith("f28335/main.c"))
+        main = next(c["command"] for c in commands if c["file"].endswith("program/main.c"))
         self.assertIn(str(own), main)
         self.assertNotIn(str(ROOT / "firmware" / "config"), main)
 

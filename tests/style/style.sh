@@ -20,7 +20,7 @@ check()
 # Without its count of warnings in system headers. The board's files see the registers of the virtual device.
 tidy()
 {
-    "$tools/clang-tidy" --quiet --config-file=tests/style/clang-tidy.yml "${core[@]}" "${board[@]}" -- -std=c99 -Ifirmware/board \
+    "$tools/clang-tidy" --quiet --config-file=tests/style/clang-tidy.yml "${core[@]}" "${board[@]}" -- -std=c99 -Ifirmware/board -Ifirmware/board/program \
         -Ifirmware/board/f28335 -isystem host_tools/sil/f28335/include -include host_tools/sil/f28335/f28335_names.h \
         -isystem "$(gcc -print-file-name=include)" "${includes[@]}" \
         2> >(grep -Ev '^[0-9]+ warnings? generated\.$' >&2)
@@ -29,7 +29,7 @@ tidy()
 mapfile -t c_like < <(git ls-files '*.c' '*.h' '*.cpp' '*.hpp')
 # The generated map has rows alike.
 mapfile -t core < <(git ls-files firmware/{control,commission,store,app,one_unit}'/*.c' | grep -vxE 'firmware/app/(registers/app_registers|canopen/app_canopen)_map\.c')
-mapfile -t board < <(git ls-files 'firmware/board/f28335/*.c')
+mapfile -t board < <(git ls-files 'firmware/board/f28335/*.c' 'firmware/board/program/*.c')
 mapfile -t includes < <(find firmware/{control,commission,store,config,app} -type d -printf '-I%p\n')
 
 check "ruff check" "$tools/ruff" check --no-cache --quiet .

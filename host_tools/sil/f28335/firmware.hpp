@@ -14,7 +14,7 @@ struct Firmware {
     void (*pass)(firmware_pass_t) = nullptr;
 };
 
-/// That of firmware/board/f28335/main.c, bound to the constants of the scenario.
+/// That of firmware/board/program/main.c, bound to the constants of the scenario.
 Firmware whole_firmware();
 
 } // namespace sdre::f28335
