@@ -224,7 +224,15 @@ const uint16_t *board_store(uint16_t slot);
  * loader. */
 bool board_store_erase(uint16_t slot);
 
-/** Writes erased words, each only once. @return false: failed. Context: loader. */
+/**
+ * @brief Writes erased words, each only once.
+ *
+ * @param offset A multiple of BOARD_STORE_GRAIN. The board writes whole grains: words behind the
+ *               last one of a grain are written too, as 0xFFFF.
+ * @return false: failed.
+ *
+ * Context: loader.
+ */
 bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count);
 
 /** Free-running count of processor cycles; wraps at 2^32. Context: any. */

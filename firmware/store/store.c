@@ -8,8 +8,9 @@
 
 /* Word offsets in the head. */
 enum {
-    HEAD_MARK = 0,
-    HEAD_KIND,
+    HEAD_MARK     = 0,
+    HEAD_REPLACED = (BOARD_STORE_GRAIN == 1U) ? 0 : (int)BOARD_STORE_GRAIN,
+    HEAD_KIND     = (BOARD_STORE_GRAIN == 1U) ? 1 : (2 * (int)BOARD_STORE_GRAIN),
     HEAD_COUNT_HI,
     HEAD_COUNT_LO,
     HEAD_NUMBER_HI,
@@ -87,6 +88,11 @@ static bool is_mark(uint16_t word, uint16_t mark)
     return (differs & (uint16_t)(differs - 1U)) == 0U;
 }
 
+static bool is_committed(const uint16_t *head)
+{
+    return is_mark(head[HEAD_MARK], STORE_MARK) && !is_mark(head[HEAD_REPLACED], STORE_REPLACED);
+}
+
 /* The content of a slot; words is NULL unless its CRC is right. */
 static store_content_t whole(store_kind_t kind, uint16_t slot)
 {
@@ -108,8 +114,8 @@ static slot_t look(store_kind_t kind, uint16_t slot)
     slot_t                s     = empty;
 
     if (head != NULL) {
-        s.committed = is_mark(head[HEAD_MARK], STORE_MARK);
-        s.replaced  = is_mark(head[HEAD_MARK], STORE_REPLACED);
+        s.committed = is_committed(head);
+        s.replaced  = is_mark(head[HEAD_REPLACED], STORE_REPLACED);
         if (s.committed || s.replaced) {
             s.content = whole(kind, slot);
         }
@@ -186,8 +192,7 @@ static bool retire(uint16_t slot)
 {
     const uint16_t mark = STORE_REPLACED;
 
-    return !is_mark(board_store(slot)[HEAD_MARK], STORE_MARK) ||
-           board_store_program(slot, HEAD_MARK, &mark, 1U);
+    return !is_committed(board_store(slot)) || board_store_program(slot, HEAD_REPLACED, &mark, 1U);
 }
 
 bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count)
@@ -226,7 +231,7 @@ bool store_commit(const store_write_t *w)
     head[HEAD_CRC_HI] = high(crc);
     head[HEAD_CRC_LO] = low(crc);
     const bool ok     = board_store_program(w->slot, HEAD_KIND, &head[HEAD_KIND],
-                                            (uint16_t)(STORE_HEAD_WORDS - HEAD_KIND)) &&
+                                            (uint16_t)(HEAD_CRC_LO - HEAD_KIND + 1)) &&
                     board_store_program(w->slot, HEAD_MARK, &head[HEAD_MARK], 1U) &&
                     (look(w->kind, w->slot).content.words != NULL);
 
@@ -241,9 +246,15 @@ bool store_write(store_kind_t kind, const uint16_t *words, uint32_t count)
     store_write_t w;
     bool          ok = store_begin(&w, kind, count);
 
-    for (uint32_t at = 0UL; ok && (at < count); at++) {
-        const uint16_t word = words[at]; /* flash cannot be read while it is written */
-        ok                  = store_put(&w, at, &word, 1U);
+    for (uint32_t at = 0UL; ok && (at < count); at += BOARD_STORE_GRAIN) {
+        uint16_t grain[BOARD_STORE_GRAIN]; /* flash cannot be read while it is written */
+        uint16_t n = 0U;
+
+        while ((n < BOARD_STORE_GRAIN) && ((at + n) < count)) {
+            grain[n] = words[at + n];
+            n        = (uint16_t)(n + 1U);
+        }
+        ok = store_put(&w, at, grain, n);
     }
     return ok && store_commit(&w);
 }

@@ -14,6 +14,9 @@
  *     6, 7     CRC-32 of words 1 to 5 and of the content
  *     8 ..     the content
  *
+ * A flash may write several words at once (BOARD_STORE_GRAIN). Then the mark has the first grain
+ * and STORE_REPLACED the second. Words 1 to 7 above begin at the third, the content at the fifth.
+ *
  * An erased flash word is 0xFFFF; writing clears bits, erasing sets all of them.
  *
  * | mark           | CRC   | the slot                                                    |
@@ -33,9 +36,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "board_limits.h"
+
 #define STORE_MARK       0x5D2EU /**< chosen: seven bits from an erased word, nine from zero */
 #define STORE_REPLACED   0x0000U /**< follows STORE_MARK by clearing bits */
-#define STORE_HEAD_WORDS 8U
+#define STORE_HEAD_WORDS ((BOARD_STORE_GRAIN == 1U) ? 8U : (4U * BOARD_STORE_GRAIN))
 
 /** Kinds of content. Each kind has two slots: 2 kind - 2 and 2 kind - 1. */
 typedef enum { STORE_IMAGE = 1, STORE_PARAMETERS } store_kind_t;
@@ -85,7 +90,7 @@ bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count);
 /**
  * @brief Writes part of the content. Each word may be written once.
  *
- * @param offset Position of the first word in the content.
+ * @param offset Position of the first word in the content, a multiple of BOARD_STORE_GRAIN.
  * @return false: the words exceed the announced content, or programming failed.
  *
  * Context: loader.

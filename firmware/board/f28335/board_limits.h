@@ -12,5 +12,6 @@
 #define BOARD_CAPTURE_Hz  75000000UL /**< of the encoder's edge times: half the processor's clock */
 #define BOARD_UPDATES_MAX 2U         /**< control periods per PWM period */
 #define BOARD_STORE_WORDS 0x8000UL   /**< a sector of the flash */
+#define BOARD_STORE_GRAIN 1U         /**< words that are written at once */
 
 #endif /* BOARD_LIMITS_H */

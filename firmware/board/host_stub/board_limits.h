@@ -12,5 +12,6 @@
 #define BOARD_CAPTURE_Hz  12500000UL /**< of the encoder's edge times: half the clock */
 #define BOARD_UPDATES_MAX 1U         /**< control periods per PWM period */
 #define BOARD_STORE_WORDS 0UL        /**< no store */
+#define BOARD_STORE_GRAIN 1U
 
 #endif /* BOARD_LIMITS_H */
