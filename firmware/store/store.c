@@ -208,10 +208,42 @@ bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count)
            board_store_erase(w->slot);
 }
 
+#if BOARD_STORE_GRAIN == 1U
+
+static bool put(const store_write_t *w, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    return board_store_program(w->slot, STORE_HEAD_WORDS + offset, words, count);
+}
+
+#else
+
+/* Words of a grain that is not complete yet. */
+static uint16_t grain[BOARD_STORE_GRAIN];
+
+/* Writes a grain with its last word, or with that of the content. */
+static bool put(const store_write_t *w, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    bool ok = true;
+
+    for (uint16_t n = 0U; ok && (n < count); n++) {
+        const uint32_t at = offset + n;
+        const uint16_t in = (uint16_t)(at % BOARD_STORE_GRAIN);
+
+        grain[in] = words[n];
+        if (((in + 1U) == BOARD_STORE_GRAIN) || ((at + 1UL) == w->count)) {
+            ok = board_store_program(w->slot, (STORE_HEAD_WORDS + at) - in, grain,
+                                     (uint16_t)(in + 1U));
+        }
+    }
+    return ok;
+}
+
+#endif
+
 bool store_put(const store_write_t *w, uint32_t offset, const uint16_t *words, uint16_t count)
 {
     return (offset <= w->count) && ((uint32_t)count <= (w->count - offset)) &&
-           board_store_program(w->slot, STORE_HEAD_WORDS + offset, words, count);
+           put(w, offset, words, count);
 }
 
 store_content_t store_written(const store_write_t *w)
@@ -246,15 +278,9 @@ bool store_write(store_kind_t kind, const uint16_t *words, uint32_t count)
     store_write_t w;
     bool          ok = store_begin(&w, kind, count);
 
-    for (uint32_t at = 0UL; ok && (at < count); at += BOARD_STORE_GRAIN) {
-        uint16_t grain[BOARD_STORE_GRAIN]; /* flash cannot be read while it is written */
-        uint16_t n = 0U;
-
-        while ((n < BOARD_STORE_GRAIN) && ((at + n) < count)) {
-            grain[n] = words[at + n];
-            n        = (uint16_t)(n + 1U);
-        }
-        ok = store_put(&w, at, grain, n);
+    for (uint32_t at = 0UL; ok && (at < count); at++) {
+        const uint16_t word = words[at]; /* flash cannot be read while it is written */
+        ok                  = store_put(&w, at, &word, 1U);
     }
     return ok && store_commit(&w);
 }

@@ -90,7 +90,8 @@ bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count);
 /**
  * @brief Writes part of the content. Each word may be written once.
  *
- * @param offset Position of the first word in the content, a multiple of BOARD_STORE_GRAIN.
+ * @param offset Position of the first word in the content. With a BOARD_STORE_GRAIN above one, the
+ *               calls follow each other from 0 on.
  * @return false: the words exceed the announced content, or programming failed.
  *
  * Context: loader.

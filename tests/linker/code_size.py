@@ -46,9 +46,10 @@ OPTIONS = [
     "-D_Bool=unsigned short",
     *[
         f"-I{path}"
-        for d in ("control", "commission", "store", "app", "board/f28335", "board", "config")
+        for d in ("control", "commission", "store", "app", "config")
         for path in (FIRMWARE / d, *sorted((FIRMWARE / d).glob("*/")))
     ],
+    *[f"-I{FIRMWARE / d}" for d in ("board", "board/program", "board/f28335")],
     "-isystem",
     str(ROOT / "tests/target/include"),
     "-isystem",
@@ -111,7 +112,7 @@ def app_parts():
 
 def sources():
     found, parts = core_sources(), app_parts()
-    for folder in ("app", "commission", "store", "board/f28335"):
+    for folder in ("app", "commission", "store", "board/program", "board/f28335"):
         found += [
             source
             for source in sorted((FIRMWARE / folder).rglob("*.c"))
@@ -175,11 +176,7 @@ def bench_functions():
     """Functions of the image for a debugger."""
     with tempfile.TemporaryDirectory() as directory:
         work = pathlib.Path(directory)
-        made = [
-            _compile(source, work)
-            for source in sources()
-            if source.parent == BOARD and source.name != "main.c"
-        ]
+        made = [_compile(source, work) for source in sources() if source.parent == BOARD]
         made += [
             _compile(BOARD / "bench.c", work),
             _compile(FIRMWARE / "config" / "board_config.c", work),

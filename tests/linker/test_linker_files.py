@@ -193,7 +193,8 @@ def check_tables(image, sections):
                 for pattern in sections[".tables"].inputs
             ):
                 raise Refused(f"section .tables leaves {constant} out")
-    if not re.search(r"^static app_image_t in_force;", (BOARD / "main.c").read_text(), flags=re.M):
+    main = (BOARD.parent / "program/main.c").read_text()
+    if not re.search(r"^static app_image_t in_force;", main, flags=re.M):
         raise Refused("main.c has no in_force")
     if sections[".in_force"].inputs != ["*(.bss:in_force)"]:
         raise Refused("section .in_force leaves in_force out")

@@ -17,8 +17,9 @@ import command_file
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "firmware"
-ROOMS = [FIRMWARE / d for d in ("control", "commission", "store", "app", "board", "board/f28335")]
+ROOMS = [FIRMWARE / d for d in ("control", "commission", "store", "app")]
 INCLUDES = [f"-I{path}" for room in ROOMS for path in (room, *sorted(room.glob("*/")))]
+INCLUDES += [f"-I{FIRMWARE / d}" for d in ("board", "board/program", "board/f28335")]
 COMPILER = [
     "clang",
     "--target=arm-none-eabi",

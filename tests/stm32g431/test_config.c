@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The constants that are compiled into the image of the B-G431B-ESC1, on the host. */
 #include "app_board_check.h"
+#include "app_config_check.h"
 #include "board_config.h"
 #include "clock_tree.h"
 #include "gain_tables.h"
@@ -30,9 +31,12 @@ static void test_only_the_motor_contradicts_the_board(void)
     const board_difference_t found = app_board_check(&board_identity, &board_config, &drive);
 
     TEST_ASSERT_EQUAL_STRING("rated_dc_link_V", board_field_name(found.field));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_config_check(&board_config, &drive));
+    drive.dc_link_min_V = 0.5f * board_identity.fact[BOARD_FACT_RATED_DC_LINK_V];
     drive.dc_link_max_V = board_identity.fact[BOARD_FACT_RATED_DC_LINK_V];
     TEST_ASSERT_EQUAL_STRING(
         "", board_field_name(app_board_check(&board_identity, &board_config, &drive).field));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_config_check(&board_config, &drive));
 }
 
 static void test_currents_are_those_of_network_and_amplifier(void)
@@ -54,7 +58,8 @@ static void test_shunts_are_read_at_the_largest_duty(void)
     const double count_s = 1.0 / CLOCK_SYSCLK_Hz;
     const double off_s =
         (double)(board_config.board.duty_full_cnt - board_config.gate.duty_max_cnt) * count_s;
-    const double before_s = off_s - board_config.board.dead_time_cnt * count_s;
+    const double dead_s   = board_config.board.dead_time_cnt * count_s;
+    const double before_s = off_s - dead_s;
     const double held_s   = (2.0 * SAMPLE_6_5 + CONVERT_cnt) / CLOCK_ADCCLK_Hz;
 
     TEST_ASSERT_TRUE(before_s >= SETTLE_s);

@@ -113,6 +113,30 @@ static void test_contents_follow_each_other(void)
     TEST_ASSERT_FALSE(store_newest(STORE_IMAGE).lost);
 }
 
+/* A master sends pieces of any length. */
+static void test_pieces_need_no_grains(void)
+{
+    enum { LONG = 103 };
+    uint16_t words[LONG];
+
+    for (uint16_t n = 0U; n < LONG; n++) {
+        words[n] = (uint16_t)(n * n);
+    }
+    for (uint16_t piece = 1U; piece <= LONG; piece++) {
+        store_write_t w;
+
+        TEST_ASSERT_TRUE(store_begin(&w, STORE_IMAGE, LONG));
+        for (uint16_t at = 0U; at < LONG; at = (uint16_t)(at + piece)) {
+            const uint16_t left = (uint16_t)(LONG - at);
+
+            TEST_ASSERT_TRUE(store_put(&w, at, &words[at], (left < piece) ? left : piece));
+        }
+        TEST_ASSERT_EQUAL_UINT16_ARRAY(words, store_written(&w).words, LONG);
+        TEST_ASSERT_TRUE(store_commit(&w));
+        TEST_ASSERT_EQUAL_UINT16_ARRAY(words, store_newest(STORE_IMAGE).words, LONG);
+    }
+}
+
 /* Each power cut leaves the content before or the new one, and loses none; the next write works. */
 static void test_no_power_cut_loses_a_content(void)
 {
@@ -150,6 +174,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_contents_follow_each_other);
+    RUN_TEST(test_pieces_need_no_grains);
     RUN_TEST(test_no_power_cut_loses_a_content);
     RUN_TEST(test_damage_is_found);
     return UNITY_END();

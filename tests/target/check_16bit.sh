@@ -17,7 +17,7 @@ stand_in=host_tools/sil/f28335/include # headers of the device, for firmware/boa
 tool=${1-}
 
 mapfile -t includes < <(find firmware/{control,commission,store,config,app} -type d -printf '-I%p\n')
-includes+=(-Ifirmware/board -Ifirmware/board/f28335)
+includes+=(-Ifirmware/board -Ifirmware/board/program -Ifirmware/board/f28335)
 clang_flags=(-std=c99 -fsyntax-only -ffreestanding -nostdlibinc -isystem "$here/include"
     -Wall -Wextra -Wpedantic -Werror
     -Wconversion -Wsign-conversion -Wfloat-conversion -Wdouble-promotion -Wshorten-64-to-32
@@ -96,4 +96,5 @@ check firmware/store "${includes[@]}"
 # The board waits with an instruction of the device, so it needs the stand-in's meaning of asm too.
 device=("${includes[@]}" -isystem "$stand_in" -include "$stand_in/c28_cpu.h")
 [[ $tool != cppcheck ]] || device=("${includes[@]}" -I"$stand_in" --suppress="*:$stand_in/*")
+check firmware/board/program "${device[@]}"
 check firmware/board/f28335 "${device[@]}"

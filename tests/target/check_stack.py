@@ -25,7 +25,8 @@ ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
 HEADERS = ROOT / "host_tools/sil/f28335/include"
 ROOMS = [
-    ROOT / f"firmware/{name}" for name in ("control", "commission", "store", "app", "board/f28335")
+    ROOT / f"firmware/{name}"
+    for name in ("control", "commission", "store", "app", "board/program", "board/f28335")
 ]
 FOLDERS = [path for room in ROOMS for path in (room, *sorted(room.glob("*/")))]
 FLAGS = [

@@ -24,13 +24,13 @@ const app_config_t board_config = {
         {
             .pwm_cycles      = 34000UL,
             .duty_full_cnt   = DUTY_FULL,
-            .dead_time_cnt   = 102U, /* 0.6 us */
+            .dead_time_cnt   = 512U, /* 3 us of the tables, up to the next step */
             .positions       = 10000U,
             .current_sensors = 3U,
             .chopper         = 0U,
         },
     .pwm_period_s = 200.0e-6f,
-    .dead_time_s  = 0.6e-6f,
+    .dead_time_s  = 3.0e-6f, /* of the tables */
     .scale =
         {
             .current_A_per_cnt = (2.0f * CURRENT_RANGE_A) / (float)BOARD_ADC_CODES,
@@ -67,7 +67,7 @@ const app_config_t board_config = {
     {
         .precharge_ticks         = 1U * TICKS_PER_ms,
         .precharge_speed_e_radps = 50.0f, /* below the current limit times R / flux, 4 A */
-        .duty_max_cnt            = 16677U,
+        .duty_max_cnt            = 16266U,
         .pulse_min_cnt           = 0U,
     },
     .stop =

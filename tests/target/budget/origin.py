@@ -8,7 +8,7 @@ from fnmatch import fnmatch
 from pathlib import Path
 
 FIRMWARE = Path(__file__).resolve().parents[3] / "firmware"
-FOLDERS = ("control", "app", "commission", "store", "board/f28335")
+FOLDERS = ("control", "app", "commission", "store", "board/program", "board/f28335")
 FLASH = ", flash"  # ends the names of counts that come with the flash's wait states
 OTHER = "other"
 
