@@ -97,3 +97,9 @@ void board_chopper_write(bool on)
 {
     (void)on;
 }
+
+/* No pin is left for a holding brake either. */
+void board_brake_write(bool release)
+{
+    (void)release;
+}
