@@ -9,7 +9,7 @@ set(CMAKE_AR arm-none-eabi-gcc-ar CACHE FILEPATH "knows the link-time optimizer'
 set(CMAKE_RANLIB arm-none-eabi-gcc-ranlib CACHE FILEPATH "as CMAKE_AR")
 
 # Square roots are one instruction, because no code reads errno. Not a number is an input like any other, so no flag
-# forbids it. Enumerations are as on the host. Names of directories do not enter the image.
+# forbids it. Enumerations are as on the host.
 set(CMAKE_C_FLAGS_INIT
     "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--no-enum-size-warning,--fatal-warnings")
