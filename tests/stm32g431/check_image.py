@@ -2,7 +2,7 @@
 """The image of the B-G431B-ESC1, as it is flashed. Two builds in two directories have the same
 octets. Vectors, forbidden routines, flash, RAM and the need of stack are checked.
 
-    check_image.py [-v]
+    check_image.py [-v] [--keep FILE]    # leaves the image there, for tests that run it
 
 Without the compiler nothing is checked, and a line says so.
 """
@@ -230,6 +230,10 @@ def main():
         wrong += memory(octets, sections_of(first), symbols)
         wrong += stack(work / "first", symbols, "-v" in sys.argv)
         print(f"sha256 {hashlib.sha256(octets).hexdigest()}")
+        if "--keep" in sys.argv:
+            kept = Path(sys.argv[sys.argv.index("--keep") + 1])
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(first, kept)
     for line in wrong:
         print(f"stm32g431.image: {line}")
     return 1 if wrong else 0

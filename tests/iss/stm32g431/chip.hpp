@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+/// An STM32G431 that runs its image in a circuit. A cycle is 1 / 170 MHz, also before the PLL runs.
+///
+/// Not modelled: CAN, the protection of the stack, the flash's waits, parity and codes of the memories.
+#pragma once
+
+#include <memory>
+
+#include "stm32g431/circuit.hpp"
+#include "stm32g431/converter.hpp"
+#include "stm32g431/flash.hpp"
+#include "stm32g431/serial.hpp"
+#include "stm32g431/system.hpp"
+#include "stm32g431/timers.hpp"
+
+namespace iss::stm32g431 {
+
+constexpr double core_Hz = 170e6;
+
+class Chip {
+public:
+    /// Powers up with this image in the flash.
+    Chip(const ElfImage &image, Circuit &circuit);
+
+    void   run_for(double time_s);
+    double time_s() const
+    {
+        return static_cast<double>(core_.cycles()) / core_Hz;
+    }
+    int resets() const
+    {
+        return resets_;
+    }
+    /// A comparator sees too much current.
+    void set_over_current(bool active);
+    void press_button(bool pressed)
+    {
+        port_c_.drive(10, !pressed);
+    }
+    void break_crystal()
+    {
+        rcc_.break_crystal();
+    }
+    bool gates_enabled() const
+    {
+        return timer_.enabled();
+    }
+    bool light() const
+    {
+        return port_c_.output(6);
+    }
+    Serial &serial()
+    {
+        return serial_;
+    }
+    Core &core()
+    {
+        return core_;
+    }
+
+private:
+    class CycleCounter : public Device {
+    public:
+        explicit CycleCounter(Core &core) : core_(core) {}
+        std::uint32_t read(std::uint32_t offset, unsigned octets) override;
+        void          write(std::uint32_t offset, std::uint32_t value, unsigned octets) override;
+
+    private:
+        Core         &core_;
+        std::uint64_t zero_ = 0;
+        std::uint32_t on_   = 0;
+    };
+
+    /// Peripherals by their address.
+    class Bus : public Device {
+    public:
+        Bus(Core &core, std::uint32_t base) : core_(core), base_(base) {}
+        void          add(std::uint32_t address, std::uint32_t octets, Device &device);
+        std::uint32_t read(std::uint32_t offset, unsigned octets) override;
+        void          write(std::uint32_t offset, std::uint32_t value, unsigned octets) override;
+
+    private:
+        struct Place {
+            std::uint32_t address;
+            std::uint32_t octets;
+            Device       *device;
+        };
+        const Place *find(std::uint32_t address, const char *what);
+
+        Core              &core_;
+        std::uint32_t      base_;
+        std::vector<Place> places_;
+    };
+
+    void          connect();
+    void          reset_devices();
+    void          restart(std::uint32_t cause);
+    std::uint64_t next_event();
+    void          serve_events();
+    void          begin_period();
+    void          update_gates();
+    void          update_lines();
+
+    Core          core_;
+    Circuit      &circuit_;
+    Rcc           rcc_{core_};
+    Registers     power_{core_, "PWR", 0x400};
+    Flash         flash_{core_};
+    Gpio          port_a_{core_, "GPIOA"};
+    Gpio          port_b_{core_, "GPIOB"};
+    Gpio          port_c_{core_, "GPIOC"};
+    Registers     analog_{core_, "SYSCFG", 0x400}; // SYSCFG, comparators, amplifiers
+    Registers     dac_{core_, "DAC3", 0x400};
+    PwmTimer      timer_{core_, {&port_a_, &port_b_, &port_c_}};
+    EncoderTimer  encoder_{core_, port_b_};
+    EdgeTimer     edges_{core_};
+    Converter     adc1_{core_, 1};
+    Converter     adc2_{core_, 2};
+    Registers     adc_common_{core_, "ADC12", 0x100};
+    Serial        serial_{core_};
+    Registers     can_{core_, "FDCAN1", 0x400};
+    Registers     can_memory_{core_, "FDCAN memory", 0x400};
+    Watchdog      watchdog_{core_};
+    CycleCounter  counter_{core_};
+    Bus           apb_{core_, 0x40000000};
+    Bus           ports_{core_, 0x48000000};
+    Bus           fast_{core_, 0x50000000};
+    bool          gates_        = false;
+    std::uint64_t period_began_ = 0;
+    int           resets_       = 0;
+};
+
+} // namespace iss::stm32g431

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+/// ADC1 or ADC2 with its injected sequence.
+#pragma once
+
+#include "stm32g431/circuit.hpp"
+#include "stm32g431/registers.hpp"
+
+namespace iss::stm32g431 {
+
+class Converter : public Registers {
+public:
+    Converter(Core &core, int number);
+    void reset() override;
+
+    /// The trigger of TIM1: holds and converts.
+    void          start(Circuit &circuit);
+    std::uint64_t due() const
+    {
+        return due_;
+    }
+    void end();
+    bool interrupts() const;
+
+protected:
+    std::uint32_t on_read(std::uint32_t offset) override;
+    void          on_write(std::uint32_t offset, std::uint32_t value) override;
+
+private:
+    int           number_;
+    std::uint64_t due_ = UINT64_MAX;
+    std::uint32_t results_[4]{};
+    bool          overrun_ = false;
+};
+
+} // namespace iss::stm32g431

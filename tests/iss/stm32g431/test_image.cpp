@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The image that is flashed, instruction by instruction, with the motor at rest: start, Modbus, loader, flash.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "sil/served/rtu_frame.hpp"
+#include "stm32g431/chip.hpp"
+#include "stm32g431/still_circuit.hpp"
+
+extern "C" {
+#include "app_loader.h"
+#include "app_modes.h"
+#include "app_registers.h"
+}
+
+using namespace iss;
+using namespace iss::stm32g431;
+
+namespace {
+
+using Words = std::vector<std::uint16_t>;
+using sdre::Octets;
+
+constexpr double answer_s = 0.1;
+constexpr double step_s   = 5e-4;
+constexpr double ready_s  = 0.4; // boot 50 ms, offsets of the sensors 256 ms
+
+class IssImage : public ::testing::Test {
+protected:
+    /// The answer's PDU; empty when none came.
+    Octets ask(const Octets &pdu)
+    {
+        Octets request{1};
+        request.insert(request.end(), pdu.begin(), pdu.end());
+        for (const std::uint8_t octet : sdre::rtu_frame(request)) {
+            chip.serial().send(octet);
+        }
+        Octets come;
+        for (const double end_s = chip.time_s() + answer_s; chip.time_s() < end_s;) {
+            chip.run_for(step_s);
+            const std::size_t before = come.size();
+            for (int octet = chip.serial().take(); octet >= 0; octet = chip.serial().take()) {
+                come.push_back(static_cast<std::uint8_t>(octet));
+            }
+            const auto content = sdre::rtu_content(come);
+            if (content && come.size() == before) {
+                return {content->begin() + 1, content->end()};
+            }
+        }
+        return {};
+    }
+    int input(unsigned number)
+    {
+        const Octets a = ask(
+            {4, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 0, 1});
+        return a.size() == 4 ? 256 * a[2] + a[3] : -1;
+    }
+    bool write(unsigned first, const Words &words)
+    {
+        Octets pdu{16,
+                   static_cast<std::uint8_t>(first >> 8U),
+                   static_cast<std::uint8_t>(first),
+                   0,
+                   static_cast<std::uint8_t>(words.size()),
+                   static_cast<std::uint8_t>(2 * words.size())};
+        for (const unsigned word : words) {
+            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
+            pdu.push_back(static_cast<std::uint8_t>(word));
+        }
+        const Octets a = ask(pdu);
+        return !a.empty() && a[0] == 16;
+    }
+    int loader(unsigned number)
+    {
+        return input(APP_LOADER_FIRST + number);
+    }
+    void enter()
+    {
+        ASSERT_TRUE(write(APP_LOADER_FIRST, {APP_LOADER_ENTER}));
+        chip.run_for(0.1);
+        ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_IDLE);
+    }
+    void expect_no_findings()
+    {
+        for (const std::string &line : chip.core().findings()) {
+            ADD_FAILURE() << line;
+        }
+        EXPECT_FALSE(chip.core().halted());
+    }
+
+    StillCircuit circuit;
+    ElfImage     image = read_elf(ISS_IMAGE);
+    Chip         chip{image, circuit};
+};
+
+} // namespace
+
+TEST_F(IssImage, StartsAndAnswersWithTheBridgeOff)
+{
+    chip.run_for(ready_s);
+    // The compiled constants are of a motor that this board cannot have.
+    EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_FAULT);
+    EXPECT_EQ(input(APP_REGISTERS_FAULT), APP_FAULT_CONFIG);
+    const Octets board = ask({43, 14, 4, 0x83});
+    EXPECT_NE(std::string(board.begin(), board.end()).find("b_g431b_esc1"), std::string::npos);
+    EXPECT_FALSE(chip.gates_enabled());
+    EXPECT_FALSE(circuit.gates);
+    EXPECT_EQ(chip.resets(), 0);
+    EXPECT_NEAR(static_cast<double>(circuit.periods), 5000.0 * chip.time_s(), 5000.0 * 0.02);
+    std::printf("control interrupt at rest: %d cycles, at most %d\n", input(APP_REGISTERS_CYCLES),
+                input(APP_REGISTERS_CYCLES_WORST));
+    expect_no_findings();
+}
+
+TEST_F(IssImage, WritesItsFlashByTheLoader)
+{
+    chip.run_for(ready_s);
+    enter();
+    EXPECT_EQ(chip.resets(), 1);
+    ASSERT_TRUE(write(APP_LOADER_FIRST, {APP_LOADER_BEGIN, 0, 100}));
+    chip.run_for(0.2);
+    ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_WRITING);
+    for (unsigned at = 0; at < 100; at += 20) {
+        Words part{0, static_cast<std::uint16_t>(at)};
+        for (unsigned n = at; n < at + 20; n++) {
+            part.push_back(static_cast<std::uint16_t>(0x1000 + n));
+        }
+        ASSERT_TRUE(write(APP_LOADER_FIRST + APP_LOADER_OFFSET_HI, part)) << at;
+    }
+    EXPECT_EQ(loader(APP_LOADER_PUT_LO), 100);
+    ASSERT_TRUE(write(APP_LOADER_FIRST, {APP_LOADER_COMMIT, 0, 100, 1, 2}));
+    chip.run_for(0.1);
+    EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_SUM) << "the check sum is a wrong one";
+    ASSERT_TRUE(write(APP_LOADER_FIRST, {APP_LOADER_LEAVE}));
+    chip.run_for(ready_s);
+    EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
+    EXPECT_EQ(chip.resets(), 2);
+    expect_no_findings();
+}
+
+TEST_F(IssImage, WithoutCrystalItStaysOff)
+{
+    chip.break_crystal();
+    chip.run_for(0.1);
+    EXPECT_EQ(circuit.periods, 0);
+    EXPECT_FALSE(chip.gates_enabled());
+    expect_no_findings();
+}
