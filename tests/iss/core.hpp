@@ -78,7 +78,7 @@ public:
     void          set_word(std::uint32_t address, std::uint32_t value);
     std::uint32_t program_counter() const;
 
-    /// What the program did that no program should, a line each.
+    /// Lines that each tell what no program should do, and this one did.
     const std::vector<std::string> &findings() const
     {
         return findings_;

@@ -26,7 +26,7 @@ struct Masks {
 
 class Exceptions : public Device { // at E000E000h
 public:
-    /// @param cycles Of the core; read whenever the time is needed.
+    /// @param cycles The count of the core; it is read whenever the time is needed.
     explicit Exceptions(const std::uint64_t &cycles) : cycles_(cycles) {}
 
     void reset(std::uint32_t vectors);

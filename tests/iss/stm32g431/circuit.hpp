@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is around the chip.
+/// The circuit around the chip.
 #pragma once
 
 #include <array>
