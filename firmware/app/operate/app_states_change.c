@@ -47,11 +47,12 @@ static const law_aim_t *at_position(app_modes_t *m, const app_command_t *asked)
 /* A fault here is one of the next tick. */
 static const law_aim_t *at_path(app_modes_t *m, const app_command_t *asked)
 {
+    app_path_t *const path = asked->path;
+
     m->to_position.actual = m->position.actual;
     m->to_position.moves  = true;
     m->aim.position       = &m->to_position;
     m->aim.torque         = NULL;
-    app_path_t *const path = asked->path;
     app_path_tick(path, &m->position.actual, m->drive.config->ts_s, &m->to_position.motion);
     if (path->deviates) {
         m->sink_fault = APP_FAULT_FOLLOWING;
