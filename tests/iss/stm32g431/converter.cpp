@@ -19,9 +19,9 @@ constexpr std::uint32_t armed     = 1U << 3U;
 constexpr std::uint32_t regulator = 1U << 28U;
 constexpr std::uint32_t calibrate = 1U << 31U;
 
-constexpr double cycles_per_clock = 4.0; // CKMODE of this board; chip.cpp checks it
-constexpr double conversion       = 12.5;
-constexpr double sampling[8]      = {2.5, 6.5, 12.5, 24.5, 47.5, 92.5, 247.5, 640.5};
+constexpr double                cycles_per_clock = 4.0; // CKMODE of this board
+constexpr double                conversion       = 12.5;
+constexpr std::array<double, 8> sampling{2.5, 6.5, 12.5, 24.5, 47.5, 92.5, 247.5, 640.5};
 
 } // namespace
 
@@ -50,8 +50,8 @@ void Converter::start(Circuit &circuit)
     for (std::uint32_t n = 0; n < count; n++) {
         const std::uint32_t input = (at(jsqr) >> (9U + 6U * n)) & 31U;
         const std::uint32_t time  = (at(smpr1 + 4U * (input / 10U)) >> (3U * (input % 10U))) & 7U;
-        clocks += sampling[time] + conversion;
-        results_[n] = static_cast<std::uint32_t>(circuit.code(number_, static_cast<int>(input)));
+        clocks += sampling.at(time) + conversion;
+        results_.at(n) = static_cast<std::uint32_t>(circuit.code(number_, static_cast<int>(input)));
     }
     due_ = core().cycles() + static_cast<std::uint64_t>(clocks * cycles_per_clock);
 }
@@ -60,7 +60,7 @@ void Converter::end()
 {
     due_ = UINT64_MAX;
     for (std::uint32_t n = 0; n < 4; n++) {
-        at(jdr1 + 4U * n) = results_[n];
+        at(jdr1 + 4U * n) = results_.at(n);
     }
     at(isr) |= end_flags;
 }

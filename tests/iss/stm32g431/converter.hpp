@@ -2,6 +2,8 @@
 /// ADC1 or ADC2 with its injected sequence.
 #pragma once
 
+#include <array>
+
 #include "stm32g431/circuit.hpp"
 #include "stm32g431/registers.hpp"
 
@@ -26,10 +28,9 @@ protected:
     void          on_write(std::uint32_t offset, std::uint32_t value) override;
 
 private:
-    int           number_;
-    std::uint64_t due_ = UINT64_MAX;
-    std::uint32_t results_[4]{};
-    bool          overrun_ = false;
+    int                          number_;
+    std::uint64_t                due_ = UINT64_MAX;
+    std::array<std::uint32_t, 4> results_{};
 };
 
 } // namespace iss::stm32g431

@@ -59,7 +59,7 @@ protected:
     {
         core_.find(name_ + ": " + what);
     }
-    Core &core()
+    Core &core() const
     {
         return core_;
     }

@@ -84,11 +84,6 @@ bool Rcc::is_on(ClockGate gate) const
     return ((at(gate.offset) >> gate.bit) & 1U) != 0U;
 }
 
-bool Rcc::runs_on_pll() const
-{
-    return (at(cfgr) & 3U) == of_pll;
-}
-
 void Rcc::on_write(std::uint32_t offset, std::uint32_t value)
 {
     if (offset == cr) {
@@ -180,7 +175,7 @@ std::uint64_t Watchdog::due() const
 
 bool Watchdog::is_out() const
 {
-    return const_cast<Watchdog *>(this)->core().cycles() >= due();
+    return core().cycles() >= due();
 }
 
 } // namespace iss::stm32g431

@@ -10,7 +10,6 @@ class Rcc : public Registers {
 public:
     explicit Rcc(Core &core);
     bool is_on(ClockGate gate) const;
-    bool runs_on_pll() const;
     /// The crystal never starts.
     void break_crystal();
     void reset() override;

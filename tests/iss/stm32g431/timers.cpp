@@ -57,7 +57,7 @@ void PwmTimer::reset()
 
 std::uint64_t PwmTimer::into() const
 {
-    const std::uint64_t passed = const_cast<PwmTimer *>(this)->core().cycles() - began_;
+    const std::uint64_t passed = core().cycles() - began_;
     return full_ > 0 ? passed % (2U * static_cast<std::uint64_t>(full_)) : 0U;
 }
 
