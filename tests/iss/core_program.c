@@ -11,7 +11,18 @@
 #define PRIORITY ((volatile uint8_t *)0xE000E400UL)
 #define CPACR    (*(volatile uint32_t *)0xE000ED88UL)
 
-enum { ADDS = 0, NESTS, SLEEPS, MASKS, LEVELS, FAULTS, FAULTS_TWICE, NO_FPU, MISALIGNED_STACK };
+enum {
+    ADDS = 0,
+    NESTS,
+    SLEEPS,
+    MASKS,
+    LEVELS,
+    FAULTS,
+    FAULTS_TWICE,
+    NO_FPU,
+    MISALIGNED_STACK,
+    KEEPS
+};
 
 #define MOST 32U
 
@@ -74,6 +85,8 @@ void line_0(void)
 
     note(100U + active());
     __asm volatile("mov %0, sp" : "=r"(handler_sp));
+    /* It leaves other values in what it may change. */
+    __asm volatile("mov r12, #0\n vmov.f32 s2, #1.0\n vcmp.f32 s2, s2" ::: "r12", "s2");
     if (task == NESTS) {
         LINES = 2U; /* more urgent: now */
         note(101U);
@@ -144,6 +157,34 @@ static void sleeps(void)
     note(3U);
 }
 
+/* What an interrupt in between must not change: a scratch register, the flags of both units, and that the FPU is in use. */
+static void keeps(void)
+{
+    uint32_t r12;
+    uint32_t flags;
+    uint32_t fpu_flags;
+    uint32_t control;
+
+    __asm volatile("mov r12, #77\n"
+                   "vmov.f32 s0, #1.0\n"
+                   "vmov.f32 s1, #2.0\n"
+                   "vcmp.f32 s0, s1\n"
+                   "movs r3, #0\n"
+                   "str %4, [%5]\n"
+                   "b 1f\n 1: nop\n"
+                   "mrs %1, apsr\n"
+                   "vmrs %2, fpscr\n"
+                   "mrs %3, control\n"
+                   "mov %0, r12\n"
+                   : "=&r"(r12), "=&r"(flags), "=&r"(fpu_flags), "=&r"(control)
+                   : "r"(0U), "r"(&LINES)
+                   : "r12", "r3", "s0", "s1", "cc", "memory");
+    note(r12);
+    note(flags >> 30U);     /* N, Z: zero */
+    note(fpu_flags >> 28U); /* N: less */
+    note(control & 4U);
+}
+
 void start(void)
 {
     if (task != NO_FPU) {
@@ -170,9 +211,16 @@ void start(void)
         LINES = 1U;
         note(9U);
     } else if (task == MISALIGNED_STACK) {
-        __asm volatile("sub sp, #4\n str %0, [%1]\n nop\n nop\n add sp, #4" ::"r"(0U), "r"(&LINES)
+        /* The simulator looks for interrupts where a block begins. */
+        LINES = 0U;
+        __asm volatile("b 1f\n 1:" ::: "memory");
+        const uint32_t before = handler_sp & 7U;
+        __asm volatile("sub sp, #4\n str %0, [%1]\n b 1f\n 1: nop\n add sp, #4" ::"r"(0U),
+                       "r"(&LINES)
                        : "memory");
-        note(handler_sp & 7U);
+        note(((handler_sp & 7U) == before) ? 1U : 0U);
+    } else if (task == KEEPS) {
+        keeps();
     } else {
         (void)*(volatile uint32_t *)BAD_ADDRESS;
     }

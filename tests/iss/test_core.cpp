@@ -15,7 +15,18 @@ constexpr std::uint32_t ram    = 0x20000000;
 constexpr std::uint32_t lines  = 0x40000000;
 constexpr std::uint64_t enough = 2'000'000;
 
-enum Task { adds, nests, sleeps, masks, levels, faults, faults_twice, no_fpu, misaligned_stack };
+enum Task {
+    adds,
+    nests,
+    sleeps,
+    masks,
+    levels,
+    faults,
+    faults_twice,
+    no_fpu,
+    misaligned_stack,
+    keeps
+};
 
 /// Raises and lowers lines of interrupts.
 class Lines : public Device {
@@ -197,8 +208,24 @@ TEST_F(IssCore, AnFpuThatIsOffIsAFault)
 
 TEST_F(IssCore, HandlersHaveAnAlignedStack)
 {
-    EXPECT_EQ(run(misaligned_stack), (Trace{116, 0}));
+    EXPECT_EQ(run(misaligned_stack), (Trace{116, 116, 1}));
     expect_no_findings();
+}
+
+TEST_F(IssCore, AnInterruptKeepsFlagsAndTheUseOfTheFpu)
+{
+    EXPECT_EQ(run(keeps), (Trace{116, 77, 1, 8, 4}));
+    expect_no_findings();
+}
+
+TEST_F(IssCore, TheWayToAHandlerTakesTwelveCycles)
+{
+    start(sleeps);
+    core.run_until(core.cycles() + 100'000);
+    const std::uint64_t asleep = core.cycles();
+    core.exceptions().set_line(2, true);
+    core.run_until(asleep + 1);
+    EXPECT_EQ(core.cycles(), asleep + 12);
 }
 
 // The manual's table: a few instructions of each kind.
