@@ -190,7 +190,7 @@ static void search_switch(app_homing_t *h, const app_objects_t *o, const app_hom
     }
 }
 
-static void search_on(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
+static void search_in_time(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
 {
     const uint32_t spent   = seen->ticks - h->began_ticks;
     const float    spent_s = seen->ts_s * (float)spent;
@@ -227,7 +227,7 @@ float app_homing_tick(app_homing_t *h, const app_objects_t *o, const app_homing_
     }
     h->start_high = high;
     if (app_homing_moves(h->stage)) {
-        search_on(h, o, seen);
+        search_in_time(h, o, seen);
     }
     if (app_homing_moves(h->stage)) {
         const bool fast = (h->stage == APP_HOMING_FIND) || (h->stage == APP_HOMING_LEAVE);
