@@ -157,7 +157,7 @@ static void sleeps(void)
     note(3U);
 }
 
-/* What an interrupt in between must not change: a scratch register, the flags of both units, and that the FPU is in use. */
+/* An interrupt in between must not change a scratch register, flags of both units, or the use of the FPU. */
 static void keeps(void)
 {
     uint32_t r12;
