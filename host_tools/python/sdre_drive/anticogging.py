@@ -84,6 +84,8 @@ def drive_text(path: Path, found: Cogging) -> str:
     _require_possible(drive, path)
     q = drive["nodo"]["Q"]
     text = re.sub(r"(?m)^(law|slots)\s*=.*\n", "", text)
+    # noc_h takes no torques: the section goes, with the comments above it.
+    text = re.sub(r"(?m)(^#.*\n)*^\[torque\].*\n(^(?!\[|#).*(\n|\Z))*", "", text)
     text = re.sub(r"(?m)^(name\s*=.*\n)", r'\1law = "noc_h"' + "\n", text, count=1)
     slots = f"[motor]\nslots = {found.slots}  # periods of the cogging in a turn, measured\n"
     text = re.sub(r"(?m)^\[motor\].*\n", slots, text, count=1)
