@@ -8,12 +8,16 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Callable
+
+from conftest import ROOT
 
 from sdre_drive import session
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import Mode, Reading
 
+GAINS = ROOT / "build/host/bin/sdre-gains"
 PATIENCE = 5  # times that no answer comes
 LONGEST_S = 30.0  # of the drive's time; a start takes 3 s
 
@@ -23,6 +27,14 @@ def command(*words: str) -> subprocess.CompletedProcess:
     return subprocess.run(
         [sys.executable, "-m", "sdre_drive", *words], capture_output=True, text=True, timeout=120
     )
+
+
+def image(drive_file: Path, out: Path) -> Path:
+    """The image of a drive file, in `out`."""
+    subprocess.run(
+        [str(GAINS), "image", str(drive_file), "--out", str(out)], check=True, capture_output=True
+    )
+    return out
 
 
 def until(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float = LONGEST_S) -> Reading:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import threading
 from pathlib import Path
 from typing import Iterator
@@ -11,7 +10,7 @@ from typing import Iterator
 import pytest
 from can_support import Bus, Command, in_process, on_both, watch_nothing, watched
 from conftest import ROOT, SHIPPED
-from support import run_at
+from support import image, run_at
 
 from sdre_drive import faults, params, scope, session
 from sdre_drive.connection import Drive, DriveError, Target
@@ -19,9 +18,6 @@ from sdre_drive.options import target, use_can
 
 pytest.importorskip("canopen")
 pytest.importorskip("can")
-
-
-GAINS = ROOT / "build/host/bin/sdre-gains"
 
 
 @pytest.fixture(scope="module")
@@ -98,14 +94,11 @@ def test_a_session_that_has_stopped_leaves_no_watch(command: Command, bus: Bus) 
 
 
 def test_an_image_is_loaded_and_forgotten(command: Command, bus: Bus, tmp_path: Path) -> None:
-    image = tmp_path / "own.image"
-    text = SHIPPED.read_text().replace('name = "ipmsm_390w"', 'name = "my_motor"')
-    (tmp_path / "own.toml").write_text(text)
-    made = [str(GAINS), "image", str(tmp_path / "own.toml"), "--out", str(image)]
-    subprocess.run(made, check=True, capture_output=True)
+    own = tmp_path / "own.toml"
+    own.write_text(SHIPPED.read_text().replace('name = "ipmsm_390w"', 'name = "my_motor"'))
     before = command(*bus.options(), "load")
     assert "compiled in: ipmsm_390w" in before.out, before
-    done = command(*bus.options(), "load", str(image))
+    done = command(*bus.options(), "load", str(image(own, tmp_path / "own.image")))
     assert done.code == 0 and "image 1: my_motor" in done.out, done
     back = command(*bus.options(), "load", "--forget")
     assert back.code == 0 and "compiled in: ipmsm_390w" in back.out, back

@@ -13,16 +13,15 @@ from typing import Callable, List, Tuple
 
 import pytest
 from conftest import ROOT, SHIPPED, Served, serving
-from support import command
+from support import GAINS, command
 
 from sdre_drive import disc
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import Constants
 
-GAINS = ROOT / "build/host/bin/sdre-gains"
 LINES = 250
 POSITIONS = 4 * LINES
-KNOWN = Constants(2, 2e-4, 600.0, 5.0, POSITIONS, 0)
+KNOWN = Constants(2, 2e-4, 600.0, 5.0, POSITIONS, float(POSITIONS), 0)
 SAMPLES = 512
 # Edges are off by 0.10 counts, within 4 % for 1,000 of them. With five edges in a period readings
 # are beyond an edge by 0 to 0.2 of the way. They are off by 1 to 1.25 times as much.

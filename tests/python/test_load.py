@@ -9,20 +9,11 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT, SHIPPED, Served
-from support import command, run_at
+from support import GAINS, command, image, run_at
 
 from sdre_drive import load as loader
 from sdre_drive import session
 from sdre_drive.connection import Drive, DriveError, Target
-
-GAINS = ROOT / "build/host/bin/sdre-gains"
-
-
-def image(drive_file: Path, out: Path) -> Path:
-    subprocess.run(
-        [str(GAINS), "image", str(drive_file), "--out", str(out)], check=True, capture_output=True
-    )
-    return out
 
 
 @pytest.fixture
