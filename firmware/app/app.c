@@ -292,11 +292,11 @@ static void work_at_rest(app_mode_t mode)
 
 static void drive_brake(bool turn)
 {
-    const app_brake_t *const b = &tick_side.modes.brake;
-
     app_modes_brake(&tick_side.modes, &tick_side.requested, turn, tick_side.drive->ts_s);
-    tick_side.control.braked = app_brake_may_hold(b);
-    board_brake_write(app_brake_output(b));
+    const app_brake_state_t state = tick_side.modes.brake.state;
+
+    tick_side.control.braked = app_brake_may_hold(state);
+    board_brake_write(app_brake_output(state));
 }
 
 static void work(void)

@@ -47,7 +47,8 @@ void app_brake_tick(app_brake_t *b, const app_objects_t *o, app_brake_ask_t ask,
     }
     if (ask == APP_BRAKE_BRIDGE_OFF) {
         bridge_off(b, o);
-    } else if ((ask == APP_BRAKE_RELEASE) && app_brake_may_hold(b) && !app_brake_output(b)) {
+    } else if ((ask == APP_BRAKE_RELEASE) && app_brake_may_hold(b->state) &&
+               !app_brake_output(b->state)) {
         become(b, APP_BRAKE_RELEASING, slow_turns(o->brake_release_ms, ts_s));
     } else if ((ask == APP_BRAKE_CLOSE) && closes(b, over)) {
         become(b, APP_BRAKE_CLOSING, slow_turns(o->brake_close_ms, ts_s));

@@ -10,8 +10,7 @@
  *     stop    standstill for 20 turns, output low, close time, bridge open       EQ-APP-BRAKE-1
  *
  * A turn is that of app_slow.h. Each time is at least that of the objects, and at most three turns
- * longer. A bridge
- * that opens otherwise closes the brake at once.
+ * longer. A bridge that opens otherwise closes the brake at once.
  */
 #ifndef APP_BRAKE_H
 #define APP_BRAKE_H
@@ -58,21 +57,21 @@ void app_brake_tick(app_brake_t *b, const app_objects_t *o, app_brake_ask_t ask,
                     float ts_s);
 
 /** Level of the output. */
-static inline bool app_brake_output(const app_brake_t *b)
+static inline bool app_brake_output(app_brake_state_t state)
 {
-    return (b->state == APP_BRAKE_RELEASING) || (b->state == APP_BRAKE_RELEASED);
+    return (state == APP_BRAKE_RELEASING) || (state == APP_BRAKE_RELEASED);
 }
 
 /** True while the brake may hold the shaft: no set-point acts. */
-static inline bool app_brake_may_hold(const app_brake_t *b)
+static inline bool app_brake_may_hold(app_brake_state_t state)
 {
-    return (b->state != APP_BRAKE_NONE) && (b->state != APP_BRAKE_RELEASED);
+    return (state != APP_BRAKE_NONE) && (state != APP_BRAKE_RELEASED);
 }
 
 /** True while the brake may be open: the bridge has to hold the shaft. */
-static inline bool app_brake_may_be_open(const app_brake_t *b)
+static inline bool app_brake_may_be_open(app_brake_state_t state)
 {
-    return b->state > APP_BRAKE_CLOSED;
+    return state > APP_BRAKE_CLOSED;
 }
 
 #endif /* APP_BRAKE_H */

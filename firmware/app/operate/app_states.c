@@ -45,7 +45,7 @@ static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
 static bool must_brake(const app_modes_t *m)
 {
     return app_stop_is_braking(&m->stop, m->reading.omega_e_radps) ||
-           app_brake_may_be_open(&m->brake);
+           app_brake_may_be_open(m->brake.state);
 }
 
 /* RUN and STOP. After loss of the encoder the drive brakes until it is too slow to run without one;

@@ -210,15 +210,16 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->align.stage == APP_ALIGN_DONE) {
-        return app_brake_may_be_open(&m->brake) ? app_states_hold_aligned(m, in) : aligned(m, in);
+        return app_brake_may_be_open(m->brake.state) ? app_states_hold_aligned(m, in)
+                                                     : aligned(m, in);
     }
     if (m->angle.reference ==
         APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
         m->align.stage = APP_ALIGN_DONE;
         app_position_forget(&m->position);
-        return app_brake_may_be_open(&m->brake) ? bridge_shorted() : bridge_open();
+        return app_brake_may_be_open(m->brake.state) ? bridge_shorted() : bridge_open();
     }
-    if (app_brake_may_hold(&m->brake)) {
+    if (app_brake_may_hold(m->brake.state)) {
         app_align_wait(&m->align);
     }
     const bridge_t out = app_states_align_vector(m, in);
@@ -228,7 +229,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
         app_position_forget(&m->position);
-        return app_brake_may_be_open(&m->brake) ? out : bridge_open();
+        return app_brake_may_be_open(m->brake.state) ? out : bridge_open();
     }
     return out;
 }
@@ -238,8 +239,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
 static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool goes_on = in->command.commission && !in->command.run;
-    const bool waits =
-        goes_on && (m->commission.module.stage > COMMISSION_WATCH) && app_brake_may_hold(&m->brake);
+    const bool waits   = goes_on && (m->commission.module.stage > COMMISSION_WATCH) &&
+                       app_brake_may_hold(m->brake.state);
     const bridge_t out = waits ? bridge_shorted()
                                : app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
 

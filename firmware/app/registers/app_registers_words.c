@@ -151,7 +151,7 @@ static bool is_following(const app_registers_t *r)
 
     return (s->mode_of_operation >= (int16_t)APP_CONTROL_CYCLIC_POSITION) &&
            (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
-           ((s->brake == APP_BRAKE_NONE) || (s->brake == APP_BRAKE_RELEASED)) &&
+           !app_brake_may_hold(s->brake) &&
            !app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
 }
 
@@ -221,7 +221,7 @@ uint16_t app_registers_outputs(const app_registers_t *r)
 {
     const app_brake_state_t brake = r->status.brake;
 
-    return ((brake == APP_BRAKE_CLOSED) || (brake == APP_BRAKE_CLOSING)) ? 1U : 0U;
+    return ((brake != APP_BRAKE_NONE) && !app_brake_output(brake)) ? 1U : 0U;
 }
 
 uint32_t app_registers_scope_state(const app_registers_t *r)

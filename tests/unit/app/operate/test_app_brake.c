@@ -42,7 +42,7 @@ static uint32_t random_below(uint32_t limit)
 /* The level that an ask allows. */
 static void assert_level(app_brake_ask_t ask, bool held_before)
 {
-    const bool high = app_brake_output(&brake);
+    const bool high = app_brake_output(brake.state);
 
     if (ask == APP_BRAKE_BRIDGE_OFF) {
         TEST_ASSERT_FALSE(high);
@@ -63,11 +63,11 @@ static void remember(app_brake_ask_t ask, bool turn, bool held_before)
     history.used    = (ask == APP_BRAKE_BRIDGE_OFF) ? (objects.brake_used != 0U) : history.used;
     history.closing = (ask == APP_BRAKE_CLOSE) ? (history.closing + (turn ? 1U : 0U)) : 0U;
     assert_level(ask, held_before);
-    if (history.high != app_brake_output(&brake)) {
+    if (history.high != app_brake_output(brake.state)) {
         history.held   = 0U;
         history.by_off = false;
     }
-    history.high   = app_brake_output(&brake);
+    history.high   = app_brake_output(brake.state);
     history.by_off = history.by_off || (ask == APP_BRAKE_BRIDGE_OFF);
 }
 
@@ -81,17 +81,18 @@ static void assert_times(float ts_s)
 
     if (!history.used) {
         TEST_ASSERT_EQUAL_INT(APP_BRAKE_NONE, brake.state);
-        TEST_ASSERT_FALSE(app_brake_may_hold(&brake));
-        TEST_ASSERT_FALSE(app_brake_may_be_open(&brake));
+        TEST_ASSERT_FALSE(app_brake_may_hold(brake.state));
+        TEST_ASSERT_FALSE(app_brake_may_be_open(brake.state));
     } else if (history.high) {
-        TEST_ASSERT_TRUE(app_brake_may_be_open(&brake));
-        TEST_ASSERT_TRUE(app_brake_may_hold(&brake) || (held_s >= release_s));
-        TEST_ASSERT_TRUE(!app_brake_may_hold(&brake) || (held_s <= (release_s + slack_s)));
+        TEST_ASSERT_TRUE(app_brake_may_be_open(brake.state));
+        TEST_ASSERT_TRUE(app_brake_may_hold(brake.state) || (held_s >= release_s));
+        TEST_ASSERT_TRUE(!app_brake_may_hold(brake.state) || (held_s <= (release_s + slack_s)));
     } else {
-        TEST_ASSERT_TRUE(app_brake_may_hold(&brake));
-        TEST_ASSERT_TRUE(!app_brake_may_be_open(&brake) || !history.by_off);
-        TEST_ASSERT_TRUE(app_brake_may_be_open(&brake) || history.by_off || (held_s >= close_s));
-        TEST_ASSERT_TRUE(!app_brake_may_be_open(&brake) || (held_s <= (close_s + slack_s)));
+        TEST_ASSERT_TRUE(app_brake_may_hold(brake.state));
+        TEST_ASSERT_TRUE(!app_brake_may_be_open(brake.state) || !history.by_off);
+        TEST_ASSERT_TRUE(app_brake_may_be_open(brake.state) || history.by_off ||
+                         (held_s >= close_s));
+        TEST_ASSERT_TRUE(!app_brake_may_be_open(brake.state) || (held_s <= (close_s + slack_s)));
     }
 }
 
@@ -105,7 +106,7 @@ static void ask_for(app_brake_ask_t ask, uint32_t periods, float ts_s, bool only
 
         period++;
         if (turn || !only_at_turns) {
-            const bool held_before = app_brake_may_hold(&brake);
+            const bool held_before = app_brake_may_hold(brake.state);
 
             app_brake_tick(&brake, &objects, ask, turn, ts_s);
             remember(ask, turn, held_before);
