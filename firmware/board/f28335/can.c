@@ -2,6 +2,7 @@
 /* eCAN-A. Registers and mailboxes are 32 bits wide: each access has a whole one. The background
  * polls; nothing interrupts. */
 #include "DSP28x_Project.h"
+#include "can_octets.h"
 #include "clock_tree.h"
 #include "peripherals.h"
 
@@ -33,7 +34,6 @@
 #define LENGTH_MASK   0xFUL
 #define PRIORITY_MOST 31U
 #define OCTETS        8U
-#define OCTET         0xFFUL
 
 /* Bit timing but the prescaler: SJW, TSEG1, TSEG2, each less one. */
 #define TIMING                                                                                     \
@@ -198,17 +198,11 @@ static uint16_t oldest(uint32_t pending)
 static void take(const volatile struct MBOX *box, board_can_frame_t *frame)
 {
     const uint32_t control = box->MSGCTRL.all & LENGTH_MASK;
-    uint32_t       low     = box->MDL.all;
-    uint32_t       high    = box->MDH.all;
 
     frame->id     = (uint16_t)((box->MSGID.all >> ID_SHIFT) & ID_MASK);
     frame->length = (control < OCTETS) ? (uint16_t)control : OCTETS;
-    for (uint16_t k = 0U; k < 4U; k++) {
-        frame->octets[k]      = (uint16_t)(low & OCTET);
-        frame->octets[k + 4U] = (uint16_t)(high & OCTET);
-        low >>= 8U;
-        high >>= 8U;
-    }
+    can_octets_of(box->MDL.all, frame->octets);
+    can_octets_of(box->MDH.all, &frame->octets[4]);
 }
 
 bool board_can_read(board_can_frame_t *frame)
@@ -243,16 +237,6 @@ static uint16_t free_box(uint16_t id)
     return same ? BOXES : found;
 }
 
-static uint32_t four(const uint16_t *octets)
-{
-    uint32_t word = 0UL;
-
-    for (uint16_t k = 4U; k > 0U; k--) {
-        word = (word << 8U) | ((uint32_t)octets[k - 1U] & OCTET);
-    }
-    return word;
-}
-
 bool board_can_write(const board_can_frame_t *frame)
 {
     const uint16_t n     = free_box(frame->id);
@@ -265,8 +249,8 @@ bool board_can_write(const board_can_frame_t *frame)
         enable_boxes(bit_of(n), 0UL); /* the identifier of an enabled one cannot be written */
         box->MSGID.all   = (uint32_t)frame->id << ID_SHIFT;
         box->MSGCTRL.all = (priority << 8U) | (uint32_t)frame->length;
-        box->MDL.all     = four(frame->octets);
-        box->MDH.all     = four(&frame->octets[4]);
+        box->MDL.all     = can_octets_word(frame->octets);
+        box->MDH.all     = can_octets_word(&frame->octets[4]);
         enable_boxes(0UL, bit_of(n));
         ECanaRegs.CANTA.all  = bit_of(n);
         ECanaRegs.CANTRS.all = bit_of(n);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "DSP28x_Project.h"
 #include "peripherals.h"
+#include "restart_mark.h"
 #include "yield.h"
 
 #define WDCR_STOP 0x68U
@@ -11,14 +12,10 @@
 #define SCSR_LOCK 0x01U /* reset, not interrupt; the watchdog cannot be stopped after this */
 
 #define WDCR_RESET 0x00U /* check bits that are not 101: a reset at once */
-/* Chosen. Random memory after power-on holds this and its complement once in 2^64. WDFLAG is not
- * used: it is unreliable after any reset (docs/hardware.md, "Reset"). */
-#define WANT_LOADER 0x10ADE401UL
-#define COMPLEMENT  (WANT_LOADER ^ 0xFFFFFFFFUL)
-
 static board_reset_t cause;
 
-/* Survives a reset: no start-up code writes it. */
+/* Survives a reset: no start-up code writes it. WDFLAG is not used: it is unreliable after any
+ * reset (docs/hardware.md, "Reset"). */
 #ifdef __TI_COMPILER_VERSION__
 #pragma NOINIT(watchdog_after_reset)
 #endif
@@ -43,19 +40,9 @@ board_reset_t board_reset_cause(void)
     return cause;
 }
 
-static void remember(bool loader)
-{
-    watchdog_after_reset[0] = loader ? WANT_LOADER : 0UL;
-    watchdog_after_reset[1] = loader ? COMPLEMENT : 0UL;
-}
-
 bool board_loader_is_wanted(void)
 {
-    const bool wanted =
-        (watchdog_after_reset[0] == WANT_LOADER) && (watchdog_after_reset[1] == COMPLEMENT);
-
-    remember(false);
-    return wanted;
+    return restart_mark_take(watchdog_after_reset);
 }
 
 uint16_t *board_kept(void)
@@ -66,7 +53,7 @@ uint16_t *board_kept(void)
 void board_restart(bool loader)
 {
     board_gate_trip();
-    remember(loader);
+    restart_mark_set(watchdog_after_reset, loader);
     EALLOW;
     SysCtrlRegs.WDCR = WDCR_RESET;
     EDIS;

@@ -3,6 +3,7 @@
  * may bring, so an interrupt takes them. */
 #include <stddef.h>
 
+#include "can_octets.h"
 #include "clock_tree.h"
 #include "peripherals.h"
 
@@ -10,7 +11,6 @@
 #define SENDING    3U /* buffers of the module */
 #define REJECT     2U /* ANFS, ANFE */
 #define OCTETS     8U
-#define OCTET      0xFFUL
 #define ID_SHIFT   18U
 #define ID_MASK    0x7FFUL
 #define LENGTH_AT  16U
@@ -109,14 +109,12 @@ void board_can_listen(const uint16_t *ids, uint16_t count)
 
 static void take(const fdcan_element_t *element, board_can_frame_t *frame)
 {
-    const uint32_t length  = (element->format >> LENGTH_AT) & LENGTH;
-    uint32_t       data[2] = {element->data[0], element->data[1]};
+    const uint32_t length = (element->format >> LENGTH_AT) & LENGTH;
 
     frame->id     = (uint16_t)((element->head >> ID_SHIFT) & ID_MASK);
     frame->length = (length < OCTETS) ? (uint16_t)length : OCTETS;
-    for (uint16_t k = 0U; k < OCTETS; k++) {
-        frame->octets[k] = (uint16_t)((data[k / 4U] >> (8U * (k % 4U))) & OCTET);
-    }
+    can_octets_of(element->data[0], frame->octets);
+    can_octets_of(element->data[1], &frame->octets[4]);
 }
 
 void can_isr(void)
@@ -163,16 +161,6 @@ static bool waits(uint16_t id)
     return same;
 }
 
-static uint32_t four(const uint16_t *octets)
-{
-    uint32_t word = 0UL;
-
-    for (uint16_t k = 4U; k > 0U; k--) {
-        word = (word << 8U) | ((uint32_t)octets[k - 1U] & OCTET);
-    }
-    return word;
-}
-
 bool board_can_write(const board_can_frame_t *frame)
 {
     const uint32_t queue = FDCAN1->TXFQS;
@@ -185,8 +173,8 @@ bool board_can_write(const board_can_frame_t *frame)
 
         element->head    = ((uint32_t)frame->id & ID_MASK) << ID_SHIFT;
         element->format  = (uint32_t)frame->length << LENGTH_AT;
-        element->data[0] = four(frame->octets);
-        element->data[1] = four(&frame->octets[4]);
+        element->data[0] = can_octets_word(frame->octets);
+        element->data[1] = can_octets_word(&frame->octets[4]);
         FDCAN1->TXBAR    = 1UL << n;
     }
     return taken;

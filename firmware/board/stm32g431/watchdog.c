@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "clock_tree.h"
 #include "peripherals.h"
+#include "restart_mark.h"
 #include "yield.h"
 
 #define KEY_START  0xCCCCUL
 #define KEY_UNLOCK 0x5555UL
 #define KEY_SERVE  0xAAAAUL
 #define QUARTER    0UL /* PR: divides by four */
-
-/* Chosen. Random memory after power-on holds this and its complement once in 2^64. */
-#define WANT_LOADER 0x10ADE401UL
-#define COMPLEMENT  (WANT_LOADER ^ 0xFFFFFFFFUL)
 
 static board_reset_t cause;
 
@@ -31,18 +28,9 @@ board_reset_t board_reset_cause(void)
     return cause;
 }
 
-static void remember(bool loader)
-{
-    after_reset[0] = loader ? WANT_LOADER : 0UL;
-    after_reset[1] = loader ? COMPLEMENT : 0UL;
-}
-
 bool board_loader_is_wanted(void)
 {
-    const bool wanted = (after_reset[0] == WANT_LOADER) && (after_reset[1] == COMPLEMENT);
-
-    remember(false);
-    return wanted;
+    return restart_mark_take(after_reset);
 }
 
 uint16_t *board_kept(void)
@@ -53,7 +41,7 @@ uint16_t *board_kept(void)
 void board_restart(bool loader)
 {
     board_gate_trip();
-    remember(loader);
+    restart_mark_set(after_reset, loader);
     core_barrier();
     CORE_SCB->AIRCR = CORE_AIRCR_RESET;
     for (;;) {
