@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "drive/drive_file.hpp"
+#include "modbus_pdu.hpp"
 #include "sil/served/rtu_frame.hpp"
 #include "sil/served/served_drive.hpp"
 
@@ -57,18 +58,7 @@ protected:
     }
     bool write(unsigned first, const Words &words, double longest_s = answer_s)
     {
-        Octets pdu{16,
-                   static_cast<std::uint8_t>(first >> 8U),
-                   static_cast<std::uint8_t>(first),
-                   0,
-                   static_cast<std::uint8_t>(words.size()),
-                   static_cast<std::uint8_t>(2 * words.size())};
-        for (const unsigned word : words) {
-            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
-            pdu.push_back(static_cast<std::uint8_t>(word));
-        }
-        const Octets answer = ask(pdu, longest_s);
-        return !answer.empty() && answer[0] == 16;
+        return support::is_written(ask(support::write_pdu(first, words), longest_s));
     }
     int input(unsigned number)
     {
@@ -80,9 +70,7 @@ protected:
     }
     int read(std::uint8_t function, unsigned number)
     {
-        const Octets answer = ask({function, static_cast<std::uint8_t>(number >> 8U),
-                                   static_cast<std::uint8_t>(number), 0, 1});
-        return answer.size() == 4 ? 256 * answer[2] + answer[3] : -1;
+        return support::value_of(ask(support::read_pdu(function, number)));
     }
     void pass(double time_s)
     {

@@ -47,6 +47,16 @@ protected:
         board_firmware.enable = true;
         device->run_for(2 * period_s);
     }
+    /// With the gates on, and the brake released.
+    Device &start_released()
+    {
+        board_firmware.brake  = true;
+        board_firmware.brakes = true;
+        Device &d             = start();
+        enable_gates();
+        d.run_for(5 * period_s);
+        return d;
+    }
     bool all_legs(bool on) const
     {
         return around.legs == std::array<bool, 3>{on, on, on};
@@ -329,17 +339,12 @@ TEST_F(F28335Board, BrakeIsReleasedOnlyWhileTheGatesAreOn)
 
 TEST_F(F28335Board, BrakeEndsWithItsCommands)
 {
-    auto &b   = const_cast<board_firmware_t &>(board_firmware);
-    b.brake   = true;
-    b.brakes  = true;
-    Device &d = start();
-    enable_gates();
-    d.run_for(5 * period_s);
+    Device &d = start_released();
     ASSERT_TRUE(d.brake_is_released());
     const std::uint32_t tick = board_firmware.ticks;
     d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 1e-6);
-    b.brakes            = false; // no commands, and the legs run on: as in a halt, but for those
-    const double last_s = d.time_s();
+    board_firmware.brakes = false; // no commands, and the legs run on: as in a halt, but for those
+    const double last_s   = d.time_s();
     d.run_until([&] { return !d.brake_is_released(); }, 20e-3, 1e-6);
     EXPECT_NEAR(d.time_s() - last_s, 10e-3, 5e-6);
     EXPECT_TRUE(all_legs(true));
@@ -349,20 +354,13 @@ TEST_F(F28335Board, BrakeEndsWithItsCommands)
 
 TEST_F(F28335Board, BrakeEndsWithTheProgram)
 {
-    auto &b   = const_cast<board_firmware_t &>(board_firmware);
-    b.brake   = true;
-    b.brakes  = true;
-    Device &d = start();
-    enable_gates();
-    d.run_for(5 * period_s);
+    Device &d = start_released();
     ASSERT_TRUE(d.brake_is_released());
-    b.tick_lasts_us = 1000.0; // a tick that hangs: CPU timer 1 trips
+    board_firmware.tick_lasts_us = 1000.0; // a tick that hangs: CPU timer 1 trips
     d.run_for(3 * period_s);
     EXPECT_FALSE(d.brake_is_released());
 
-    Device &again = start();
-    enable_gates();
-    again.run_for(5 * period_s);
+    Device &again = start_released();
     ASSERT_TRUE(again.brake_is_released());
     board_firmware.serve = false; // the watchdog resets
     EXPECT_TRUE(again.run_until([&] { return again.was_reset(); }, 10e-3));

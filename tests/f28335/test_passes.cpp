@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drive/drive_file.hpp"
+#include "modbus_pdu.hpp"
 #include "sil/served/serial_bus.hpp"
 #include "sil/served/served_drive.hpp"
 
@@ -36,17 +37,11 @@ public:
             ask({4, 0, APP_REGISTERS_STATUSWORD, 0, 48}, look_s);
         }
     }
-    void write(unsigned first, std::vector<unsigned> words)
+    void write(unsigned first, const std::vector<std::uint16_t> &words)
     {
-        Octets pdu{16, octet(first >> 8U),  octet(first),
-                   0,  octet(words.size()), octet(2 * words.size())};
-        for (const unsigned word : words) {
-            pdu.push_back(octet(word >> 8U));
-            pdu.push_back(octet(word));
-        }
-        ask(pdu, look_s / 4.0);
+        ask(support::write_pdu(first, words), look_s / 4.0);
     }
-    void start(unsigned tenths)
+    void start(std::uint16_t tenths)
     {
         write(APP_REGISTERS_SPEED, {0, tenths});
         write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_SHUT_DOWN});
@@ -72,10 +67,6 @@ public:
     }
 
 private:
-    static std::uint8_t octet(std::size_t x)
-    {
-        return static_cast<std::uint8_t>(x);
-    }
     void ask(const Octets &pdu, double time_s)
     {
         Octets frame{1};

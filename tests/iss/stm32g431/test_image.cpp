@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "sil/served/rtu_frame.hpp"
+#include "modbus_pdu.hpp"
 #include "stm32g431/chip.hpp"
 #include "stm32g431/still_circuit.hpp"
 
@@ -52,24 +52,11 @@ protected:
     }
     int input(unsigned number)
     {
-        const Octets a = ask(
-            {4, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 0, 1});
-        return a.size() == 4 ? 256 * a[2] + a[3] : -1;
+        return support::value_of(ask(support::read_pdu(4, number)));
     }
     bool write(unsigned first, const Words &words)
     {
-        Octets pdu{16,
-                   static_cast<std::uint8_t>(first >> 8U),
-                   static_cast<std::uint8_t>(first),
-                   0,
-                   static_cast<std::uint8_t>(words.size()),
-                   static_cast<std::uint8_t>(2 * words.size())};
-        for (const unsigned word : words) {
-            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
-            pdu.push_back(static_cast<std::uint8_t>(word));
-        }
-        const Octets a = ask(pdu);
-        return !a.empty() && a[0] == 16;
+        return support::is_written(ask(support::write_pdu(first, words)));
     }
     int loader(unsigned number)
     {
