@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "app_believe.h"
+#include "app_canopen_process.h"
 #include "app_control.h"
 #include "app_line.h"
 #include "app_modes.h"
@@ -23,6 +24,7 @@ static volatile struct {
     uint16_t      background_count; /* background */
     uint32_t      ticks;            /* tick, at its end */
     bool          command_full;     /* background sets, tick clears */
+    bool          at_sync;          /* background: the command waits for SYNC */
     bool          tick_missing;     /* the same */
     bool          memory_changed;   /* background; stays */
     app_objects_t command;          /* background, while command_full is false */
@@ -175,6 +177,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.background_count = 0U;
     shared.ticks            = 0UL;
     shared.command_full     = false;
+    shared.at_sync          = false;
     shared.tick_missing     = false;
     shared.memory_changed   = false;
     shared.command          = tick_side.requested;
@@ -230,6 +233,11 @@ static void take_command(void)
     shared.command_full = false;
 }
 
+static bool command_is_due(void)
+{
+    return shared.command_full && (!shared.at_sync || board_can_triggered());
+}
+
 static void decide(app_mode_t mode)
 {
     const app_control_seen_t seen = seen_now();
@@ -260,7 +268,7 @@ static void work_slowly(app_mode_t mode)
         piece = (uint16_t)APP_SLOW_AIM; /* what was decided acts before anything else is */
     } else if (tick_side.taken || (mode != tick_side.decided)) {
         piece = (uint16_t)APP_SLOW_DECIDE;
-    } else if (shared.command_full) {
+    } else if (command_is_due()) {
         take_command();
     } else {
         piece = (uint16_t)(tick_side.due & (0U - tick_side.due));
@@ -280,7 +288,7 @@ static void work_slowly(app_mode_t mode)
 /* Without the law a period has time for all at once. */
 static void work_at_rest(app_mode_t mode)
 {
-    if (shared.command_full) {
+    if (command_is_due()) {
         take_command();
     }
     tick_side.in.slow = tick_side.due;
@@ -436,13 +444,48 @@ void app_tick(void)
     finish(in->board_faults, start_cycles);
 }
 
+/* Writes the command that the tick takes in the period after SYNC. */
+static void write_at_sync(const app_objects_t *command)
+{
+    board_can_arm();
+    shared.command      = *command;
+    shared.at_sync      = true;
+    shared.command_full = true;
+}
+
+/* True while such a command stays: SYNC has not come yet, or the registers do not know of it. Any
+ * other change withdraws the command. If the tick has taken it by then, the registers are told. */
+static bool waits_for_sync(app_registers_t *r)
+{
+    const bool came  = board_can_triggered();
+    const bool holds = app_canopen_process_is_prepared(&app_line.canopen);
+    const bool full  = shared.command_full;
+    bool       stays = shared.at_sync;
+
+    if (stays && !(holds && (came || (full && !r->changed)))) {
+        shared.command_full = false;
+        stays               = !came && board_can_triggered(); /* in between */
+        shared.at_sync      = stays;
+        r->changed          = r->changed || !full;
+        if (!stays) {
+            app_line.canopen.prepared = false;
+        }
+    }
+    return stays;
+}
+
 static void pass_command(app_registers_t *r)
 {
     app_objects_t command;
 
     if (r->changed) {
-        app_registers_command(r, &command);
+        app_registers_command(&r->requested, &command);
         r->changed = !app_command_write(&command);
+    } else if (!shared.command_full && app_canopen_process_prepare(&app_line.canopen, r)) {
+        app_registers_command(&r->trial, &command);
+        write_at_sync(&command);
+    } else {
+        /* nothing new */
     }
 }
 
@@ -545,8 +588,10 @@ void app_background(void)
     app_parameters_rest(&app_line.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&app_line.modbus, r, now_ticks);
     app_canopen_poll(&app_line.canopen, r, now_ticks);
-    choose_constants(r);
-    pass_command(r);
+    if (!waits_for_sync(r)) {
+        choose_constants(r);
+        pass_command(r);
+    }
     restart_when_asked(now_ticks);
 }
 

@@ -11,11 +11,11 @@
  * - Life sign of the background, tick count: each has one writer and is one aligned access, which
  *   the C28x does not split.
  * - Command: the background writes it only while its flag is false, then sets the flag. The tick
- * takes
- *   the command and clears the flag.
+ *   takes the command and clears the flag. A command of PDOs that wait for SYNC is written before
+ *   SYNC comes, and the tick takes it when the board has received SYNC. Until then the background
+ *   may clear the flag.
  * - Missing ticks: the background sets the flag after it has opened the bridge. The next tick
- * clears
- *   it.
+ *   clears it.
  * - Status: the background reads data of the tick. It reads again if the tick count changed
  * meanwhile.
  *

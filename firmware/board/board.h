@@ -102,6 +102,9 @@ typedef struct {
     uint16_t octets[8]; /**< the low eight bits of each count */
 } board_can_frame_t;
 
+/** Place of the trigger among the identifiers of board_can_listen(). */
+#define BOARD_CAN_TRIGGER 1U
+
 /** Identifiers that board_can_listen() takes at most. */
 #define BOARD_CAN_IDS 8U
 
@@ -284,6 +287,12 @@ void board_can_listen(const uint16_t *ids, uint16_t count);
 
 /** Takes the oldest frame that was received. @return false: there is none. Context: background. */
 bool board_can_read(board_can_frame_t *frame);
+
+/** Forgets the frames with the identifier of the trigger that were read. Context: background. */
+void board_can_arm(void);
+
+/** True if a frame with this identifier waits, or was read since board_can_arm(). Context: any. */
+bool board_can_triggered(void);
 
 /**
  * @brief Sends a frame when the bus is free. The lowest identifier goes first.

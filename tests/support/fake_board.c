@@ -266,16 +266,43 @@ void board_can_listen(const uint16_t *ids, uint16_t count)
     fake_board.can_id_count = count;
 }
 
+static bool is_trigger(const board_can_frame_t *frame)
+{
+    return (fake_board.can_id_count > (int)BOARD_CAN_TRIGGER) &&
+           (frame->id == fake_board.can_ids[BOARD_CAN_TRIGGER]);
+}
+
 bool board_can_read(board_can_frame_t *frame)
 {
     if (fake_board.can_rx_count == 0) {
         return false;
     }
-    *frame = fake_board.can_rx[0];
+    *frame                   = fake_board.can_rx[0];
+    fake_board.can_triggered = fake_board.can_triggered || is_trigger(frame);
     fake_board.can_rx_count--;
     memmove(&fake_board.can_rx[0], &fake_board.can_rx[1],
             (size_t)fake_board.can_rx_count * sizeof fake_board.can_rx[0]);
     return true;
+}
+
+void board_can_arm(void)
+{
+    fake_board.can_triggered = false;
+}
+
+bool board_can_triggered(void)
+{
+    void (*const interrupt)(void) = fake_board.after_triggered;
+    bool waits                    = fake_board.can_triggered;
+
+    for (int k = 0; k < fake_board.can_rx_count; k++) {
+        waits = waits || is_trigger(&fake_board.can_rx[k]);
+    }
+    if (interrupt != NULL) {
+        fake_board.after_triggered = NULL;
+        interrupt();
+    }
+    return waits;
 }
 
 bool board_can_write(const board_can_frame_t *frame)

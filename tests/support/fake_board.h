@@ -60,11 +60,13 @@ typedef struct {
     int                  can_tx_count;
     int                  can_room; /* frames that the bus takes before it is full */
     uint16_t             can_rate_kbps;
-    int                  can_starts; /* calls of board_can_set() */
-    uint16_t             can_state;
-    uint16_t             can_ids[BOARD_CAN_IDS];
-    uint16_t             can_id_count;
-    int                  serial_room; /* octets that the transmitter takes before it is full */
+    int                  can_starts;    /* calls of board_can_set() */
+    bool                 can_triggered; /* the trigger was read since board_can_arm() */
+    void (*after_triggered)(void);      /* called once, after board_can_triggered() has looked */
+    uint16_t can_state;
+    uint16_t can_ids[BOARD_CAN_IDS];
+    uint16_t can_id_count;
+    int      serial_room; /* octets that the transmitter takes before it is full */
     void (*tick)(void);
     uint16_t           updates; /* per PWM period */
     uint16_t           inputs;

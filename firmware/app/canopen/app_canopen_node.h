@@ -93,6 +93,7 @@ typedef struct {
     uint32_t                block;         /**< selected registers, app_canopen_block.h */
     app_canopen_sdo_t       sdo;
     app_canopen_emergency_t emergency;
+    bool                    prepared; /**< app_canopen_process_prepare() knows all PDOs that wait */
     app_canopen_pdo_t       received[APP_CANOPEN_PDOS];
     app_canopen_pdo_t       sent[APP_CANOPEN_PDOS];
 } app_canopen_t;

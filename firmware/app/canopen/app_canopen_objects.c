@@ -141,22 +141,46 @@ uint32_t app_canopen_objects_write_words(app_registers_t *r, uint16_t first, uin
     return app_canopen_objects_result(result);
 }
 
-static uint32_t write_entry(app_registers_t *r, const app_registers_entry_t *entry, uint32_t value)
+/* Words of a register, the high one first. @return their number. */
+static uint16_t words_of(const app_registers_entry_t *entry, uint32_t value, uint16_t words[2])
 {
-    const uint16_t high    = (uint16_t)((value >> 16U) & WORD_MASK);
-    const uint16_t low     = (uint16_t)(value & WORD_MASK);
-    const bool     wide    = app_registers_count_words(entry) == 2U;
-    const uint16_t words[] = {wide ? high : low, low};
+    const uint16_t high = (uint16_t)((value >> 16U) & WORD_MASK);
+    const uint16_t low  = (uint16_t)(value & WORD_MASK);
+    const uint16_t all  = app_registers_count_words(entry);
 
-    return app_canopen_objects_write_words(r, entry->address, wide ? 2U : 1U, words);
+    words[0] = (all == 2U) ? high : low;
+    words[1] = low;
+    return all;
 }
 
 uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
                                    uint16_t octets, uint32_t value)
 {
-    const uint32_t whole = extended(entry, octets, value);
+    const uint32_t whole  = extended(entry, octets, value);
+    uint32_t       result = APP_CANOPEN_VALUE;
 
-    return holds(entry, whole) ? write_entry(r, entry, whole) : APP_CANOPEN_VALUE;
+    if (holds(entry, whole)) {
+        uint16_t       words[2];
+        const uint16_t count = words_of(entry, whole, words);
+
+        result = app_canopen_objects_write_words(r, entry->address, count, words);
+    }
+    return result;
+}
+
+bool app_canopen_objects_try(app_registers_t *r, const app_registers_entry_t *entry,
+                             uint16_t octets, uint32_t value)
+{
+    const uint32_t whole = extended(entry, octets, value);
+    bool           ok    = holds(entry, whole);
+
+    if (ok) {
+        uint16_t       words[2];
+        const uint16_t count = words_of(entry, whole, words);
+
+        ok = app_registers_try(r, entry->address, count, words) == APP_REGISTERS_OK;
+    }
+    return ok;
 }
 
 uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value)

@@ -23,7 +23,11 @@ uint32_t app_canopen_objects_value(const app_registers_t *r, const app_canopen_o
 uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
                                    uint16_t octets, uint32_t value);
 
-/** The same for any object. */
+/** Tries the same, app_registers_try(). @return false: it is refused. */
+bool app_canopen_objects_try(app_registers_t *r, const app_registers_entry_t *entry,
+                             uint16_t octets, uint32_t value);
+
+/** Writes any object. @return an abort code. */
 uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value);
 
 /** Writes holding registers; they act together, or none does. @return an abort code. */

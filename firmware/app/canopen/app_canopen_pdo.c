@@ -212,7 +212,7 @@ uint32_t app_canopen_pdo_map(app_canopen_pdo_t *p, uint16_t sub, uint32_t value,
     return result;
 }
 
-bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r)
+static bool pass_objects(const app_canopen_pdo_t *p, app_registers_t *r, bool tries)
 {
     uint16_t at = 0U;
     bool     ok = true;
@@ -229,10 +229,21 @@ bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r)
             value = (value << 8U) | p->octets[(at - octets) + (n - 1U)];
         }
         if (ok && (entry != NULL)) {
-            ok = app_canopen_objects_write(r, entry, octets, value) == APP_CANOPEN_OK;
+            ok = tries ? app_canopen_objects_try(r, entry, octets, value)
+                       : (app_canopen_objects_write(r, entry, octets, value) == APP_CANOPEN_OK);
         }
     }
     return ok;
+}
+
+bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r)
+{
+    return pass_objects(p, r, false);
+}
+
+bool app_canopen_pdo_try(const app_canopen_pdo_t *p, app_registers_t *r)
+{
+    return pass_objects(p, r, true);
 }
 
 bool app_canopen_pdo_read(app_canopen_pdo_t *p, const app_registers_t *r)

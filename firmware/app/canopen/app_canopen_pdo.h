@@ -74,6 +74,9 @@ uint32_t app_canopen_pdo_map(app_canopen_pdo_t *p, uint16_t sub, uint32_t value,
  * value, and the ones after it were not written. */
 bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r);
 
+/** Tries the same, app_registers_try(). @return false: an object refused its value. */
+bool app_canopen_pdo_try(const app_canopen_pdo_t *p, app_registers_t *r);
+
 /** Reads the objects. @return true if an octet has changed. */
 bool app_canopen_pdo_read(app_canopen_pdo_t *p, const app_registers_t *r);
 

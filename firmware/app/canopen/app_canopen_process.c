@@ -7,6 +7,7 @@
 
 void app_canopen_process_reset(app_canopen_t *c)
 {
+    c->prepared = false;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         app_canopen_pdo_reset(&c->received[n], n, c->node, true);
         app_canopen_pdo_reset(&c->sent[n], n, c->node, false);
@@ -15,6 +16,7 @@ void app_canopen_process_reset(app_canopen_t *c)
 
 void app_canopen_process_start(app_canopen_t *c, uint32_t now_ticks)
 {
+    c->prepared = false;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         c->received[n].full    = false;
         c->received[n].watched = false;
@@ -46,6 +48,8 @@ static void take_octets(app_canopen_t *c, app_canopen_pdo_t *p, app_registers_t 
         p->full     = true;
         if (p->type > APP_CANOPEN_SYNC_MOST) {
             act_on(c, p, r);
+        } else {
+            c->prepared = false;
         }
     }
 }
@@ -82,6 +86,7 @@ static void count_sync(app_canopen_pdo_t *p, const app_registers_t *r)
 
 void app_canopen_process_sync(app_canopen_t *c, app_registers_t *r)
 {
+    c->prepared = false;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         if (c->received[n].full) {
             act_on(c, &c->received[n], r);
@@ -90,6 +95,38 @@ void app_canopen_process_sync(app_canopen_t *c, app_registers_t *r)
             count_sync(&c->sent[n], r);
         }
     }
+}
+
+static bool waits_for_sync(const app_canopen_t *c)
+{
+    bool waits = false;
+
+    for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
+        waits = waits || c->received[n].full;
+    }
+    return waits && (c->state == APP_CANOPEN_OPERATIONAL);
+}
+
+/* A change of the mode may need other constants, which come with a later command. */
+bool app_canopen_process_prepare(app_canopen_t *c, app_registers_t *r)
+{
+    bool ok = !c->prepared && waits_for_sync(c);
+
+    if (ok) {
+        c->prepared = true;
+        app_registers_begin(r);
+        for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
+            ok = ok && (!c->received[n].full || app_canopen_pdo_try(&c->received[n], r));
+        }
+        ok = ok && app_registers_fits(r) &&
+             (r->trial.objects.mode_of_operation == r->requested.objects.mode_of_operation);
+    }
+    return ok;
+}
+
+bool app_canopen_process_is_prepared(const app_canopen_t *c)
+{
+    return c->prepared && (c->state == APP_CANOPEN_OPERATIONAL);
 }
 
 /* An event: a change, or the event timer. The inhibit time holds both back. */

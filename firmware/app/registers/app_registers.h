@@ -112,7 +112,7 @@ typedef struct app_registers {
 #endif
     app_watch_ring_t                 ring; /**< oscillation of the torque current */
     app_registers_request_t          requested;
-    app_registers_request_t          trial; /**< copy that a write changes until it is accepted */
+    app_registers_request_t          trial; /**< copy that writes change until they are accepted */
     volatile app_scope_t            *scope; /**< NULL: neither scope nor record */
     const volatile app_record_t     *record;
     const volatile commission_map_t *map;        /**< of the commissioning; NULL: none */
@@ -214,6 +214,17 @@ const char *app_registers_board(const app_registers_t *r);
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values);
 
+/** Begins writes of which nothing is requested: `trial` is the copy that they change. */
+void app_registers_begin(app_registers_t *r);
+
+/** One of these writes, to holding registers other than the loader's. A refused one may have
+ * written some of them. */
+app_registers_result_t app_registers_try(app_registers_t *r, uint16_t first, uint16_t count,
+                                         const uint16_t *values);
+
+/** Ends them. @return false: their values contradict each other or the drive. */
+bool app_registers_fits(app_registers_t *r);
+
 /** Writes all registers, or none if one address or value is refused. */
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
@@ -252,8 +263,8 @@ void app_registers_init_units(app_registers_t *r);
  * @return false: units or positions are out of range. */
 bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *w);
 
-/** The requested command, with its positions in counts and its speeds within PROFILE_SPEED_MAX. */
-void app_registers_command(const app_registers_t *r, app_objects_t *out);
+/** Command of a request, with its positions in counts and its speeds within PROFILE_SPEED_MAX. */
+void app_registers_command(const app_registers_request_t *w, app_objects_t *out);
 
 /** True if PROFILE_SPEED_MAX cuts the target of a speed run. */
 bool app_registers_cuts_speed(const app_registers_t *r);

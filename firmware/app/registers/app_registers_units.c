@@ -72,17 +72,17 @@ bool app_registers_cuts_speed(const app_registers_t *r)
            !base_within(r->requested.objects.omega_e_radps, most);
 }
 
-void app_registers_command(const app_registers_t *r, app_objects_t *out)
+void app_registers_command(const app_registers_request_t *w, app_objects_t *out)
 {
-    const float most = r->requested.speed_most_e_radps;
+    const float most = w->speed_most_e_radps;
 
-    *out = r->requested.objects;
+    *out = w->objects;
     if (most > 0.0f) {
         out->omega_e_radps            = base_clamp(out->omega_e_radps, -most, most);
         out->profile_e_radps          = lower(out->profile_e_radps, most);
         out->torque_speed_max_e_radps = lower(out->torque_speed_max_e_radps, most);
     }
-    app_units_apply(&r->requested.scale, &r->requested.positions, out);
+    app_units_apply(&w->scale, &w->positions, out);
 }
 
 int32_t app_registers_position(const app_registers_t *r)

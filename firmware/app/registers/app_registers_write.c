@@ -131,7 +131,7 @@ static void count_target(app_registers_t *r, uint16_t first, uint16_t count)
     const uint16_t at = (uint16_t)((uint16_t)APP_REGISTERS_TARGET_POSITION - first);
 
     if (at < count) {
-        r->requested.objects.target_number = (uint16_t)(r->requested.objects.target_number + 1U);
+        r->trial.objects.target_number = (uint16_t)(r->trial.objects.target_number + 1U);
     }
 }
 
@@ -153,25 +153,43 @@ static app_registers_result_t try_all(app_registers_t *r, uint16_t first, uint16
     return result;
 }
 
+void app_registers_begin(app_registers_t *r)
+{
+    r->trial = r->requested;
+}
+
+app_registers_result_t app_registers_try(app_registers_t *r, uint16_t first, uint16_t count,
+                                         const uint16_t *values)
+{
+    app_registers_result_t result = APP_REGISTERS_BAD_ADDRESS;
+
+    if (are_whole(first, count)) {
+        result = try_all(r, first, count, values);
+        count_target(r, first, count);
+    }
+    return result;
+}
+
+bool app_registers_fits(app_registers_t *r)
+{
+    return may_be_requested(r, &r->trial);
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
     if ((r->loader != NULL) && (first >= APP_LOADER_FIRST)) {
         return write_loader(r, first, count, values);
     }
-    if (!are_whole(first, count)) {
-        return APP_REGISTERS_BAD_ADDRESS;
-    }
-    r->trial                            = r->requested;
-    const app_registers_result_t result = try_all(r, first, count, values);
+    app_registers_begin(r);
+    const app_registers_result_t result = app_registers_try(r, first, count, values);
     if (result != APP_REGISTERS_OK) {
         return result;
     }
-    if (!may_be_requested(r, &r->trial)) {
+    if (!app_registers_fits(r)) {
         return APP_REGISTERS_BAD_VALUE;
     }
     r->requested = r->trial;
-    count_target(r, first, count);
     command_scope(r);
     r->silent  = r->silent && !app_control_enables(r->requested.objects.controlword);
     r->by_can  = r->by_can && (first != (uint16_t)APP_REGISTERS_CONTROLWORD);

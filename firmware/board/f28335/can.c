@@ -11,6 +11,7 @@
 #define PER_ID       3U
 #define BOXES        32U
 #define SENDING_MASK 0x000000FFUL
+#define TRIGGER_MASK (7UL << (SENDING + (PER_ID * BOARD_CAN_TRIGGER))) /* its three mailboxes */
 #define RECEIVING    0xFFFFFF00UL
 
 /* CANMC */
@@ -51,6 +52,8 @@ static struct {
     uint32_t    timing; /* CANBTC */
     uint32_t    used;   /* mailboxes that receive */
     bool        lost;   /* a frame was overwritten before it was taken */
+    /* the trigger came, board_can_arm(); volatile, as the tick reads it */
+    volatile bool triggered;
 } can;
 
 static volatile struct MBOX *box_of(uint16_t n)
@@ -93,6 +96,7 @@ void can_init(void)
     can.timing = 0UL;
     can.used   = 0UL;
     can.lost   = false;
+    board_can_arm();
     EALLOW;
     ECanaRegs.CANTIOC.all = IO_CAN;
     ECanaRegs.CANRIOC.all = IO_CAN;
@@ -212,12 +216,23 @@ bool board_can_read(board_can_frame_t *frame)
 
     if (n < BOXES) {
         can.lost             = can.lost || (((uint32_t)ECanaRegs.CANRML.all & bit_of(n)) != 0UL);
+        can.triggered        = can.triggered || ((bit_of(n) & TRIGGER_MASK) != 0UL);
         ECanaRegs.CANRMP.all = bit_of(n); /* clears CANRML too */
         take(box_of(n), frame);
         /* Pending again: a newer frame came over it meanwhile. The next call takes that one. */
         whole = ((uint32_t)ECanaRegs.CANRMP.all & bit_of(n)) == 0UL;
     }
     return whole;
+}
+
+void board_can_arm(void)
+{
+    can.triggered = false;
+}
+
+bool board_can_triggered(void)
+{
+    return can.triggered || (((uint32_t)ECanaRegs.CANRMP.all & TRIGGER_MASK) != 0UL);
 }
 
 /* A mailbox that is free; BOXES: none, or one with this identifier waits. */

@@ -249,6 +249,13 @@ bool board_can_read(board_can_frame_t *frame)
     return false;
 }
 
+void board_can_arm(void) {}
+
+bool board_can_triggered(void)
+{
+    return false;
+}
+
 bool board_can_write(const board_can_frame_t *frame)
 {
     (void)frame;

@@ -35,6 +35,10 @@ static struct {
     volatile uint32_t put; /* the interrupt advances it */
     volatile uint32_t got; /* the background advances it */
     volatile bool     lost;
+    uint16_t          trigger; /* identifier; that of NMT, 0: none */
+    volatile uint32_t came;    /* frames with it: the interrupt counts those that came */
+    volatile uint32_t read;    /* the background counts those that it read */
+    volatile uint32_t armed;   /* and had read at board_can_arm() */
 } can;
 
 void can_init(void)
@@ -44,7 +48,9 @@ void can_init(void)
     can.put    = 0UL;
     can.got    = 0UL;
     can.lost   = false;
+    can.came   = 0UL;
     board_can_listen(NULL, 0U);
+    board_can_arm();
     core_enable(IRQ_FDCAN1_IT0, CORE_PRIORITY(LEVEL_LINES));
 }
 
@@ -104,7 +110,14 @@ void board_can_listen(const uint16_t *ids, uint16_t count)
 
         FDCAN_MEMORY->standard_filter[n] = (n < count) ? (FILTER_ONE | (id << 16U) | id) : 0UL;
     }
-    can.got = can.put;
+    can.trigger = (count > BOARD_CAN_TRIGGER) ? ids[BOARD_CAN_TRIGGER] : 0U;
+    can.got     = can.put;
+    can.read    = can.came;
+}
+
+static bool is_trigger(const board_can_frame_t *frame)
+{
+    return (can.trigger != 0U) && (frame->id == can.trigger);
 }
 
 static void take(const fdcan_element_t *element, board_can_frame_t *frame)
@@ -127,8 +140,11 @@ void can_isr(void)
         const uint32_t n = FDCAN_RXF0S_F0GI_OF(status);
 
         if ((can.put - can.got) < RING) {
-            take(&FDCAN_MEMORY->receive_0[n], &can.frames[can.put % RING]);
-            can.put = can.put + 1UL;
+            board_can_frame_t *const frame = &can.frames[can.put % RING];
+
+            take(&FDCAN_MEMORY->receive_0[n], frame);
+            can.came = can.came + (is_trigger(frame) ? 1UL : 0UL);
+            can.put  = can.put + 1UL;
         } else {
             can.lost = true;
         }
@@ -142,10 +158,21 @@ bool board_can_read(board_can_frame_t *frame)
     const bool is_there = can.put != can.got;
 
     if (is_there) {
-        *frame  = can.frames[can.got % RING];
-        can.got = can.got + 1UL;
+        *frame   = can.frames[can.got % RING];
+        can.read = can.read + (is_trigger(frame) ? 1UL : 0UL);
+        can.got  = can.got + 1UL;
     }
     return is_there;
+}
+
+void board_can_arm(void)
+{
+    can.armed = can.read;
+}
+
+bool board_can_triggered(void)
+{
+    return can.came != can.armed;
 }
 
 /* True while a frame with this identifier waits. */

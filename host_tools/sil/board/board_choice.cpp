@@ -63,6 +63,8 @@ bool                  f28335_board_can_fits(uint16_t rate_kbps);
 void                  f28335_board_can_set(uint16_t rate_kbps);
 void                  f28335_board_can_listen(const uint16_t *ids, uint16_t count);
 bool                  f28335_board_can_read(board_can_frame_t *frame);
+void                  f28335_board_can_arm();
+bool                  f28335_board_can_triggered();
 bool                  f28335_board_can_write(const board_can_frame_t *frame);
 uint16_t              f28335_board_can_state(void);
 uint16_t              f28335_board_inputs(void);
@@ -249,6 +251,18 @@ void board_can_listen(const uint16_t *ids, uint16_t count)
 bool board_can_read(board_can_frame_t *frame)
 {
     return the_fake == nullptr && f28335_board_can_read(frame);
+}
+
+void board_can_arm()
+{
+    if (the_fake == nullptr) {
+        f28335_board_can_arm();
+    }
+}
+
+bool board_can_triggered()
+{
+    return the_fake == nullptr && f28335_board_can_triggered();
 }
 
 bool board_can_write(const board_can_frame_t *frame)

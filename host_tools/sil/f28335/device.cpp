@@ -24,8 +24,6 @@ constexpr std::int64_t poll_cycles = 20;
 // Derived: 1.2 times the polls of the longest such loop, the lock time of the PLL. Beyond this
 // count the firmware loops without interrupts for good, as the loader does.
 constexpr std::int64_t most_polls = 40'000;
-// Chosen: a pass of the background loop, short beside the 96 us of an octet on the line.
-constexpr std::int64_t background_ticks = 3750;
 
 Device *the_device = nullptr; // hooks are plain functions, so they need one
 
@@ -98,6 +96,11 @@ void Device::pass_or_idle()
 bool Device::fault_pin_trips() const
 {
     return fault_low_ && Gpio::is_muxed(pin_trip, 1);
+}
+
+void Device::set_pass(double time_s)
+{
+    background_ticks_ = std::llround(time_s * tick_Hz);
 }
 
 double Device::into_period_s() const
@@ -180,7 +183,7 @@ bool Device::wait_towards(std::int64_t end, bool resumed)
 std::int64_t Device::idle_ticks()
 {
     polls_ = intm_ ? polls_ + 1 : 0;
-    return intm_ && polls_ <= most_polls ? clock_.ticks_for(poll_cycles) : background_ticks;
+    return intm_ && polls_ <= most_polls ? clock_.ticks_for(poll_cycles) : background_ticks_;
 }
 
 /// Vector of the interrupt to serve now. Those of the PIE come before INT13, CPU timer 1.

@@ -123,6 +123,9 @@ public:
         return clock_;
     }
 
+    /// Length of a pass of the background loop.
+    void set_pass(double time_s);
+
     // External faults.
     void set_fault_pin(bool low);
     /// Level that the board drives onto a plain input.
@@ -197,29 +200,31 @@ private:
     std::int64_t                late_cycles_  = 0;
     std::int64_t                cycles_       = 0; ///< of the processor
     std::int64_t                pins_safe_    = -1;
-    std::optional<std::int64_t> idle_end_; ///< without a stack: of the wait between two passes
-    std::int64_t                polls_        = 0; ///< with interrupts masked, in a row
-    bool                        trigger_lost_ = false;
-    bool                        masked_       = false;
-    std::array<bool, 3>         legs_{};
-    bool                        chopper_high_ = false; ///< GPIO8
-    bool                        brake_high_   = false; ///< GPIO10
-    Clock                       clock_;
-    Watchdog                    watchdog_;
-    Pie                         pie_;
-    Gpio                        gpio_;
-    std::array<PwmUnit, 3>      pwm_;
-    HoldUnit                    chopper_{EPwm5Regs, 5};
-    HoldUnit                    brake_{EPwm6Regs, 6};
-    AdcUnit                     adc_;
-    EncoderUnit                 encoder_;
-    CpuTimer                    timer_;
-    CpuTimer                    timer1_;
-    SciUnit                     sci_;
-    CanBus                      own_bus_;
-    EcanUnit                    can_;
-    Guard                       guard_;
-    Runner                      main_;
+    std::optional<std::int64_t> idle_end_;  ///< without a stack: of the wait between two passes
+    std::int64_t                polls_ = 0; ///< with interrupts masked, in a row
+    // Chosen: short beside the 96 us of an octet on the line.
+    std::int64_t           background_ticks_ = 3750; ///< of a pass of the background loop
+    bool                   trigger_lost_     = false;
+    bool                   masked_           = false;
+    std::array<bool, 3>    legs_{};
+    bool                   chopper_high_ = false; ///< GPIO8
+    bool                   brake_high_   = false; ///< GPIO10
+    Clock                  clock_;
+    Watchdog               watchdog_;
+    Pie                    pie_;
+    Gpio                   gpio_;
+    std::array<PwmUnit, 3> pwm_;
+    HoldUnit               chopper_{EPwm5Regs, 5};
+    HoldUnit               brake_{EPwm6Regs, 6};
+    AdcUnit                adc_;
+    EncoderUnit            encoder_;
+    CpuTimer               timer_;
+    CpuTimer               timer1_;
+    SciUnit                sci_;
+    CanBus                 own_bus_;
+    EcanUnit               can_;
+    Guard                  guard_;
+    Runner                 main_;
 };
 
 } // namespace sdre::f28335

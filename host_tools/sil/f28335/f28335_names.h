@@ -18,6 +18,8 @@
 #define board_can_set          f28335_board_can_set
 #define board_can_listen       f28335_board_can_listen
 #define board_can_read         f28335_board_can_read
+#define board_can_arm          f28335_board_can_arm
+#define board_can_triggered    f28335_board_can_triggered
 #define board_can_write        f28335_board_can_write
 #define board_can_state        f28335_board_can_state
 #define board_inputs           f28335_board_inputs

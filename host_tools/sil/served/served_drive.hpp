@@ -110,6 +110,11 @@ public:
     {
         return bench_.board()->brake_is_closed();
     }
+    /// Length of a pass of the firmware's background loop, until a reset.
+    void set_pass(double time_s)
+    {
+        device_->set_pass(time_s);
+    }
     /// The trip input, TZ1, until a reset.
     void set_trip_input(bool active)
     {

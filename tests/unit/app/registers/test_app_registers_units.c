@@ -50,7 +50,7 @@ static app_objects_t command(void)
 {
     app_objects_t o;
 
-    app_registers_command(&registers, &o);
+    app_registers_command(&registers.requested, &o);
     return o;
 }
 
