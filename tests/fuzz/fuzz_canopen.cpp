@@ -9,6 +9,7 @@
 extern "C" {
 #include "app_canopen.h"
 #include "app_canopen_objects.h"
+#include "app_canopen_process.h"
 #include "app_registers_place.h"
 #include "board_config.h"
 #include "gain_tables.h"
@@ -67,6 +68,7 @@ public:
         now_ticks_ += ticks;
         expect();
         app_canopen_poll(&node_, &registers_, now_ticks_);
+        (void)app_canopen_process_prepare(&node_, &registers_); // changes no register
         judge_node();
         judge_registers();
         judge_frames();
@@ -146,7 +148,8 @@ private:
         require(s == APP_CANOPEN_BOOTS || s == APP_CANOPEN_STOPPED ||
                 s == APP_CANOPEN_OPERATIONAL || s == APP_CANOPEN_PRE_OPERATIONAL);
         require(node_.node >= 1U && node_.node <= 127U);
-        require(node_.sdo.at <= APP_CANOPEN_SDO_MAX && node_.sdo.count <= APP_CANOPEN_SDO_MAX);
+        const unsigned room = (node_.sdo.paired ? 2U : 1U) * APP_CANOPEN_SDO_WORDS;
+        require(node_.sdo.at <= room && node_.sdo.count <= room);
         require(node_.emergency.unsent <= node_.emergency.count &&
                 node_.emergency.count <= APP_CANOPEN_ERRORS);
         require(fake_board.can_id_count <= BOARD_CAN_IDS);

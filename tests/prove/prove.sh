@@ -28,8 +28,9 @@ speed_difference_check:20,terms_ok:50
     [prove_control]=app_control_tick:200,app_control_decide:200,app_control_aim:200,step:200,change_at_rest:50,change_enabled:100,by_modes:20,prove_control:200,tick_control:200
     [prove_modbus]=app_modbus_device_identify:50,is_known:20
 )
-apart[prove_canopen]=app_canopen_node_listen:40,app_canopen_dictionary_read:40,find_value:20,read_single:10,app_canopen_pdo_reset:10
-apart[prove_canopen_pdo]=app_canopen_pdo_act:40
+apart[prove_canopen]=app_canopen_node_listen:40,app_canopen_dictionary_read:140,find_value:20,read_single:10,app_canopen_pdo_reset:10,app_canopen_block_text:10,read_identity:10
+apart[prove_canopen_block]=prove_canopen_block:50,any_can_registers:50,app_canopen_block_read:50,app_canopen_block_write:50,app_registers_read_input:50,app_registers_read_holding:50
+apart[prove_canopen_pdo]=pass_objects:40
 apart[prove_store]=use:1
 apart[prove_refused]=${apart[prove_init]}
 apart[prove_parameters]=app_registers_saved_take:300,app_registers_saved_read:300,read_map:400,store_newest:20,\
@@ -37,7 +38,8 @@ accept:50,app_image_accept:50,take_record:20,app_parameters_take:50
 apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read_part:50,drive_image_fields:50,app_image_take:50,commit:50,\
 app_loader_work:20,app_loader_write:50,put_board:100
 apart[prove_image]=prove_image:80,drive_image_read:200
-rows=app_registers_place_value,app_canopen_objects_write
+texts=find_value:full,read_single:full,read_identity:full,app_canopen_block_text:full
+rows=app_registers_place_value,app_canopen_objects_write,app_canopen_objects_try,app_registers_fits
 declare -A options=(
     [prove_tick]=""
     [prove_init]="-eva-split-return full"
@@ -46,9 +48,10 @@ declare -A options=(
     [prove_app_tick]=""
     [prove_control]="-eva-partition-history 4 -eva-interprocedural-history"
     [prove_modbus]="-eva-min-loop-unroll 130"
-    [prove_canopen]="-eva-min-loop-unroll 8 -eva-ilevel 128 -eva-use-spec $rows,app_canopen_pdo_act,app_canopen_pdo_read"
+    [prove_canopen]="-eva-min-loop-unroll 8 -eva-ilevel 128 -eva-split-return-function $texts -eva-use-spec $rows,app_canopen_pdo_act,app_canopen_pdo_try,app_canopen_pdo_read,app_canopen_block_read,app_canopen_block_write"
     [prove_canopen_pdo]="-eva-min-loop-unroll 8 -eva-use-spec $rows"
     [prove_canopen_rows]="-eva-min-loop-unroll 150"
+    [prove_canopen_block]="-eva-min-loop-unroll 130"
     [prove_store]=""
     [prove_image]="-eva-split-return full"
     [prove_loader]="-eva-split-return full"
@@ -66,6 +69,7 @@ declare -A sources=(
     [prove_modbus]=tests/prove/prove_load.c
     [prove_canopen]=tests/prove/prove_load.c
     [prove_canopen_rows]=tests/prove/prove_load.c
+    [prove_canopen_block]=tests/prove/prove_load.c
     [prove_canopen_pdo]=tests/prove/prove_load.c
     [prove_store]=tests/prove/prove_store.c
     [prove_image]=tests/prove/prove_store.c
@@ -122,5 +126,5 @@ for law in "${laws[@]}"; do
     [[ $law == pid ]] || printf "%s\n" "$law prove_refused" # it has no whole constants
 done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' 'any prove_store' 'noc prove_image' \
     'noc prove_loader' 'any prove_parameters' 'any prove_modbus' \
-    'any prove_canopen' 'any prove_canopen_pdo' 'any prove_canopen_rows' &&
+    'any prove_canopen' 'any prove_canopen_pdo' 'any prove_canopen_rows' 'any prove_canopen_block' &&
     printf 'any prove_commission_%s\n' "${stages[@]}" && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh

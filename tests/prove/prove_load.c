@@ -3,6 +3,8 @@
  * outlast a restart have any contents. A request brings any registers, and each module is in any state. */
 #include "any_flash.h"
 #include "app_canopen.h"
+#include "app_canopen_block.h"
+#include "app_canopen_process.h"
 #include "app_modbus.h"
 #include "board_config.h"
 
@@ -288,6 +290,9 @@ static app_canopen_state_t any_node_state(void)
                       : (any_bool() ? APP_CANOPEN_OPERATIONAL : APP_CANOPEN_PRE_OPERATIONAL);
 }
 
+/* Octets of a transfer that has two in each word. */
+enum { PAIRED = 2 * (int)APP_CANOPEN_SDO_WORDS };
+
 static void any_node(void)
 {
     app_canopen_sdo_t *const       s = &canopen.sdo;
@@ -298,13 +303,17 @@ static void any_node(void)
     canopen.node         = (uint16_t)any_between(0, 127);
     canopen.ticks_per_ms = base_clamp(any_float, 0.1f, 100.0f); /* by its init */
     canopen.restart      = any_bool();
-    canopen.watches      = any_bool();
-    canopen.missed       = any_bool();
-    canopen.stuck        = any_bool();
+    canopen.prepared     = any_bool();
+    canopen.block =
+        ((uint32_t)any_between(1, (int)APP_CANOPEN_SDO_WORDS) << 16U) + (uint32_t)any_word;
+    canopen.watches = any_bool();
+    canopen.missed  = any_bool();
+    canopen.stuck   = any_bool();
     s->stage   = (app_canopen_sdo_stage_t)any_between(APP_CANOPEN_SDO_IDLE, APP_CANOPEN_SDO_WRITES);
     s->answers = any_bool();
-    s->at      = (uint16_t)any_between(0, (int)APP_CANOPEN_SDO_MAX);
-    s->count   = (uint16_t)any_between(0, (int)APP_CANOPEN_SDO_MAX);
+    s->paired  = any_bool();
+    s->at      = (uint16_t)any_between(0, s->paired ? PAIRED : (int)APP_CANOPEN_SDO_MAX);
+    s->count   = (uint16_t)any_between(0, s->paired ? PAIRED : (int)APP_CANOPEN_SDO_MAX);
     s->answer.id     = (uint16_t)(APP_CANOPEN_ID_ANSWER + canopen.node);
     s->answer.length = 8U;
     e->count         = (uint16_t)any_between(0, (int)APP_CANOPEN_ERRORS);
@@ -331,8 +340,9 @@ static void is_node(void)
     //@ check state: canopen.state == 0 || canopen.state == 4 || canopen.state == 5 || canopen.state == 127;
     //@ check node: canopen.node <= 127;
     //@ check stage: APP_CANOPEN_SDO_IDLE <= canopen.sdo.stage <= APP_CANOPEN_SDO_WRITES;
-    //@ check done: canopen.sdo.at <= APP_CANOPEN_SDO_MAX;
-    //@ check announced: canopen.sdo.count <= APP_CANOPEN_SDO_MAX;
+    //@ check block: 1 <= canopen.block / 65536 <= APP_CANOPEN_SDO_WORDS;
+    //@ check done: canopen.sdo.at <= PAIRED;
+    //@ check announced: canopen.sdo.count <= PAIRED;
     //@ check answer: canopen.sdo.answer.length == 8;
     //@ check errors: canopen.emergency.count <= APP_CANOPEN_ERRORS;
     //@ check unsent: canopen.emergency.unsent <= APP_CANOPEN_ERRORS;
@@ -359,6 +369,21 @@ uint32_t app_registers_place_value(const app_registers_t *r, const app_registers
 uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
                                    uint16_t octets, uint32_t value);
 
+/*@ requires row: \valid_read(entry);
+    assigns \result, r->trial \from indirect: *r, indirect: *entry, octets, value;
+    ensures answer: \result == 0 || \result == 1; */
+bool app_canopen_objects_try(app_registers_t *r, const app_registers_entry_t *entry,
+                             uint16_t octets, uint32_t value);
+
+/*@ assigns \result, r->trial \from indirect: *r;
+    ensures answer: \result == 0 || \result == 1; */
+bool app_registers_fits(app_registers_t *r);
+
+/*@ requires objects: p->count <= APP_CANOPEN_MAPPED;
+    assigns \result, r->trial \from indirect: *p, indirect: *r;
+    ensures answer: \result == 0 || \result == 1; */
+bool app_canopen_pdo_try(const app_canopen_pdo_t *p, app_registers_t *r);
+
 /*@ requires objects: p->count <= APP_CANOPEN_MAPPED;
     assigns \result, r->requested, r->trial, r->changed, r->silent, r->by_can \from indirect: *p, indirect: *r;
     ensures answer: \result == 0 || \result == 1;
@@ -372,6 +397,25 @@ bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r);
     assigns \result, p->octets[0 .. 7] \from indirect: *p, indirect: *r;
     ensures answer: \result == 0 || \result == 1; */
 bool app_canopen_pdo_read(app_canopen_pdo_t *p, const app_registers_t *r);
+
+/* Shown by prove_canopen_block. */
+/*@ requires room: \valid(words + (0 .. 63)) && \valid(octets);
+    requires block: 1 <= c->block / 65536 <= 64;
+    assigns \result, words[0 .. 63], *octets \from indirect: *c, indirect: *r, indirect: sub;
+    ensures octets: *octets <= 128; */
+uint32_t app_canopen_block_read(const app_canopen_t *c, const app_registers_t *r, uint16_t sub,
+                                uint16_t *words, uint16_t *octets);
+
+/*@ requires room: \valid_read(words + (0 .. 63));
+    requires octets: octets <= 128;
+    assigns \result, r->requested, r->trial, r->changed, r->silent, r->by_can
+        \from indirect: *c, indirect: sub, words[0 .. 63], octets;
+    ensures changed: r->changed == 0 || r->changed == 1;
+    ensures silent: r->silent == 0 || r->silent == 1;
+    ensures by_can: r->by_can == 0 || r->by_can == 1;
+    ensures node: r->requested.can_node <= 127; */
+uint32_t app_canopen_block_write(const app_canopen_t *c, app_registers_t *r, uint16_t sub,
+                                 const uint16_t *words, uint16_t octets);
 
 static void any_can_registers(void)
 {
@@ -396,6 +440,10 @@ void prove_canopen_rows(void)
         (void)app_canopen_objects_write(&registers, &app_registers_map_holding[k], any_word,
                                         (uint32_t)any_long);
         is_whole();
+        app_registers_begin(&registers);
+        (void)app_canopen_objects_try(&registers, &app_registers_map_holding[k], any_word,
+                                      (uint32_t)any_long);
+        (void)app_registers_fits(&registers);
     }
 }
 
@@ -405,7 +453,23 @@ void prove_canopen_pdo(void)
     any_can_registers();
     any_node();
     (void)app_canopen_pdo_act(&canopen.received[0], &registers);
+    (void)app_canopen_pdo_try(&canopen.received[0], &registers);
     (void)app_canopen_pdo_read(&canopen.sent[0], &registers);
+}
+
+/* Entry: any block of registers is read, and written with any octets. */
+void prove_canopen_block(void)
+{
+    uint16_t octets = 0U;
+
+    any_can_registers();
+    any_node();
+    registers.loader = any_bool() ? &loader : NULL; /* here, so that both cases stay apart */
+    (void)app_canopen_block_read(&canopen, &registers, any_word, canopen.sdo.octets, &octets);
+    //@ check read: octets <= PAIRED;
+    (void)app_canopen_block_write(&canopen, &registers, any_word, canopen.sdo.octets,
+                                  (uint16_t)any_between(0, PAIRED));
+    is_whole();
 }
 
 /* Entry: a pass of the CANopen node in any state, with any frames. */
@@ -414,6 +478,7 @@ void prove_canopen(void)
     any_can_registers();
     any_node();
     app_canopen_poll(&canopen, &registers, (uint32_t)any_long);
+    (void)app_canopen_process_prepare(&canopen, &registers);
     is_node();
     is_whole();
 }

@@ -28,7 +28,7 @@ uint32_t app_canopen_block_select(app_canopen_t *c, uint16_t sub, uint32_t value
     if (sub != SELECTION) {
         result = (sub == 0U) ? APP_CANOPEN_READ_ONLY : APP_CANOPEN_NO_SUB;
     } else if ((count > 0UL) && (count <= APP_CANOPEN_SDO_WORDS)) {
-        c->block = value;
+        c->block = (count << 16U) + (value & 0xFFFFUL); /* so tests/prove sees both parts */
         result   = APP_CANOPEN_OK;
     } else {
         /* none, or more than a transfer holds */
@@ -73,8 +73,23 @@ uint32_t app_canopen_block_write(const app_canopen_t *c, app_registers_t *r, uin
 
 const char *app_canopen_block_text(const app_registers_t *r, uint16_t sub)
 {
-    const char *const texts[APP_CANOPEN_IDENTITY_SUBS] = {
-        r->config->drive_name, r->config->digest, APP_REGISTERS_DIGEST, app_registers_board(r)};
+    const char *text = NULL;
 
-    return ((sub > 0U) && (sub <= APP_CANOPEN_IDENTITY_SUBS)) ? texts[sub - 1U] : NULL;
+    switch (sub) {
+    case 1U:
+        text = r->config->drive_name;
+        break;
+    case 2U:
+        text = r->config->digest;
+        break;
+    case 3U:
+        text = APP_REGISTERS_DIGEST;
+        break;
+    case APP_CANOPEN_IDENTITY_SUBS:
+        text = app_registers_board(r);
+        break;
+    default:
+        break; /* there is none */
+    }
+    return text;
 }

@@ -20,6 +20,8 @@
 
 #define NODE_ID_MOST 127UL
 
+#define TEXT_MOST 24U /* characters, as in function 43/14 of Modbus */
+
 /* Parts of the PDOs, by their index. */
 typedef enum { NO_PDO = 0, PDO_SETTING, PDO_MAPPING } pdo_part_t;
 
@@ -164,7 +166,7 @@ uint32_t app_canopen_dictionary_read(const app_canopen_t *c, const app_registers
     uint16_t       n      = 0U;
 
     if (found.text != NULL) {
-        while ((n < APP_CANOPEN_SDO_WORDS) && ((unsigned char)found.text[n] != 0U)) {
+        while ((n < TEXT_MOST) && ((unsigned char)found.text[n] != 0U)) {
             octets[n] = (uint16_t)((uint16_t)(unsigned char)found.text[n] & 0xFFU);
             n         = (uint16_t)(n + 1U);
         }
@@ -260,18 +262,17 @@ static uint32_t put_value(app_canopen_t *c, app_registers_t *r, uint16_t index, 
     return result;
 }
 
-/* An object is there, and has as many octets. @param count 0: becomes their number. */
+/* An object is there and has `count` octets, or any number for 0. `octets` becomes their number. */
 static uint32_t check_length(const app_canopen_t *c, const app_registers_t *r, uint16_t index,
-                             uint16_t sub, uint16_t *count)
+                             uint16_t sub, uint16_t count, uint16_t *octets)
 {
     found_t  now    = {.value = 0UL, .octets = 4U, .text = NULL};
     uint32_t result = find_value(c, r, index, sub, &now);
 
+    *octets = now.octets;
     if ((result == APP_CANOPEN_OK) && (now.text != NULL)) {
         result = APP_CANOPEN_READ_ONLY;
-    } else if ((result == APP_CANOPEN_OK) && (*count == 0U)) {
-        *count = now.octets;
-    } else if ((result == APP_CANOPEN_OK) && (now.octets != *count)) {
+    } else if ((result == APP_CANOPEN_OK) && (count != 0U) && (now.octets != count)) {
         result = APP_CANOPEN_LENGTH;
     } else {
         /* as it is */
@@ -282,9 +283,9 @@ static uint32_t check_length(const app_canopen_t *c, const app_registers_t *r, u
 uint32_t app_canopen_dictionary_write(app_canopen_t *c, app_registers_t *r, uint16_t index,
                                       uint16_t sub, const uint16_t *octets, uint16_t count)
 {
-    uint16_t all    = count;
+    uint16_t all    = 0U;
     uint32_t value  = 0UL;
-    uint32_t result = check_length(c, r, index, sub, &all);
+    uint32_t result = check_length(c, r, index, sub, count, &all);
 
     if (result == APP_CANOPEN_OK) {
         for (uint16_t n = all; n > 0U; n--) {

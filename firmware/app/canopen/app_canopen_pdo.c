@@ -173,24 +173,35 @@ static uint32_t map_object(app_canopen_mapped_t *m, uint32_t what, bool receives
     return result;
 }
 
+/* Octets of the first objects; more than OCTETS: they are too many. */
+static uint32_t add_lengths(const app_canopen_pdo_t *p, uint16_t count, uint16_t *length)
+{
+    uint32_t result = APP_CANOPEN_OK;
+
+    for (uint16_t k = 0U; (k < count) && (*length <= OCTETS); k++) {
+        *length = (uint16_t)(*length + octets_of(p->map[k].what));
+        if (p->map[k].what == 0UL) {
+            result = APP_CANOPEN_NO_OBJECT;
+        }
+    }
+    return result;
+}
+
 static uint32_t set_count(app_canopen_pdo_t *p, uint32_t count)
 {
     uint16_t length = 0U;
-    uint32_t result = (count <= APP_CANOPEN_MAPPED) ? APP_CANOPEN_OK : APP_CANOPEN_TOO_MUCH;
+    uint32_t result = APP_CANOPEN_TOO_MUCH;
 
-    for (uint16_t k = 0U; (result == APP_CANOPEN_OK) && ((uint32_t)k < count); k++) {
-        length = (uint16_t)(length + octets_of(p->map[k].what));
-        if (p->map[k].what == 0UL) {
-            result = APP_CANOPEN_NO_OBJECT;
-        } else if (length > OCTETS) {
+    if (count <= APP_CANOPEN_MAPPED) {
+        result = add_lengths(p, (uint16_t)count, &length);
+        if (length > OCTETS) {
             result = APP_CANOPEN_TOO_MUCH;
+        } else if (result == APP_CANOPEN_OK) {
+            p->count  = (uint16_t)count;
+            p->length = length;
         } else {
-            /* it fits */
+            /* one of them is not mapped */
         }
-    }
-    if (result == APP_CANOPEN_OK) {
-        p->count  = (uint16_t)count;
-        p->length = length;
     }
     return result;
 }
@@ -202,12 +213,14 @@ uint32_t app_canopen_pdo_map(app_canopen_pdo_t *p, uint16_t sub, uint32_t value,
 
     if (sub > APP_CANOPEN_MAPPED) {
         result = APP_CANOPEN_NO_SUB;
-    } else if (off && (sub == 0U)) {
+    } else if (!off) {
+        /* in use */
+    } else if (sub == 0U) {
         result = set_count(p, value);
-    } else if (off && (p->count == 0U)) {
+    } else if (p->count == 0U) {
         result = map_object(&p->map[sub - 1U], value, receives);
     } else {
-        /* in use, or the number of objects is not 0 */
+        /* the number of objects is not 0 */
     }
     return result;
 }

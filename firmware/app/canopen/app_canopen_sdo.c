@@ -68,28 +68,30 @@ static uint16_t most_of(const app_canopen_sdo_t *s)
     return s->paired ? paired_octets : (uint16_t)APP_CANOPEN_SDO_MAX;
 }
 
-/* Octets that the room of the transfer holds. */
-static uint16_t room_of(const app_canopen_sdo_t *s)
+/* Word of the room that has this octet. */
+static uint16_t word_of(const app_canopen_sdo_t *s, uint16_t n)
 {
-    return s->paired ? paired_octets : (uint16_t)APP_CANOPEN_SDO_WORDS;
+    return s->paired ? (uint16_t)(n >> 1U) : n;
 }
 
 static uint16_t octet_of(const app_canopen_sdo_t *s, uint16_t n)
 {
-    const uint16_t word  = s->paired ? s->octets[n >> 1U] : s->octets[n];
+    const uint16_t at    = word_of(s, n);
+    const uint16_t word  = (at < APP_CANOPEN_SDO_WORDS) ? s->octets[at] : 0U;
     const bool     upper = s->paired && ((n & 1U) != 0U);
 
     return upper ? (uint16_t)(word >> 8U) : (uint16_t)(word & 0xFFU);
 }
 
+/* Drops what has no room, as end_write() knows the length. */
 static void put_octet(app_canopen_sdo_t *s, uint16_t n, uint16_t octet)
 {
-    if (!s->paired) {
-        s->octets[n] = octet;
-    } else if ((n & 1U) == 0U) {
-        s->octets[n >> 1U] = (uint16_t)(octet & 0xFFU);
-    } else {
-        s->octets[n >> 1U] = (uint16_t)(s->octets[n >> 1U] | ((octet & 0xFFU) << 8U));
+    const uint16_t at    = word_of(s, n);
+    const bool     upper = s->paired && ((n & 1U) != 0U);
+
+    if (at < APP_CANOPEN_SDO_WORDS) {
+        s->octets[at] =
+            upper ? (uint16_t)(s->octets[at] | ((octet & 0xFFU) << 8U)) : (uint16_t)(octet & 0xFFU);
     }
 }
 
@@ -152,7 +154,7 @@ static void read_segment(app_canopen_t *c, uint16_t toggle)
         abort_transfer(c, APP_CANOPEN_TOGGLE);
     } else {
         begin_answer(c, (uint16_t)(toggle | ((SEGMENT - now) << 1U) | last));
-        for (uint16_t n = 0U; (n < now) && (s->at < room_of(s)); n++) {
+        for (uint16_t n = 0U; (n < now) && (s->at < paired_octets); n++) {
             s->answer.octets[1U + n] = octet_of(s, s->at);
             s->at                    = (uint16_t)(s->at + 1U);
         }
@@ -216,7 +218,7 @@ static void write_segment(app_canopen_t *c, app_registers_t *r, const uint16_t *
                (last && (s->count != 0U) && (all != s->count))) {
         abort_transfer(c, APP_CANOPEN_LENGTH);
     } else {
-        for (uint16_t n = 0U; (n < now) && ((s->at + n) < room_of(s)); n++) {
+        for (uint16_t n = 0U; n < now; n++) {
             put_octet(s, (uint16_t)(s->at + n), q[1U + n]);
         }
         s->at     = all;
