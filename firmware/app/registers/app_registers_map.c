@@ -53,6 +53,7 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, 0xF519U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.jerk_e_radps3), false, 0U},
     {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, 0x1927U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, positions.window), false, 0U},
     {APP_REGISTERS_PROFILE_SPEED_MAX, APP_REGISTERS_U32, 10.0f, 0.0f, 10000000.0f, false, 0xAFC6U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, speed_most_e_radps), true, 0U},
+    {APP_REGISTERS_PROFILE_VELOCITY_RPM, APP_REGISTERS_U32, 10.0f, 0.0f, 10000000.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.profile_e_radps), true, 0U},
     {APP_REGISTERS_SENSOR_TRIM, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, false, 0x8D42U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 7U, false, 0U},
     {APP_REGISTERS_TORQUE, APP_REGISTERS_I16, 1000.0f, -32.768f, 32.767f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.torque_share), false, 32U},
     {APP_REGISTERS_TORQUE_OFFSET, APP_REGISTERS_I16, 1000.0f, -32.768f, 32.767f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.torque_offset), false, 32U},

@@ -12,7 +12,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "d9671dda" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "0e9a34fe" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED 45U /**< parameters */
 
@@ -66,8 +66,9 @@ enum {
     APP_REGISTERS_PROFILE_JERK = 164,
     APP_REGISTERS_POSITION_WINDOW = 166,
     APP_REGISTERS_PROFILE_SPEED_MAX = 167,
+    APP_REGISTERS_PROFILE_VELOCITY_RPM = 169,
     APP_REGISTERS_TARGET_FIRST = 160,
-    APP_REGISTERS_TARGET_END = 169,
+    APP_REGISTERS_TARGET_END = 171,
     APP_REGISTERS_SENSOR_TRIM = 192,
     APP_REGISTERS_TRIM_FIRST = 192,
     APP_REGISTERS_TRIM_END = 193,
@@ -345,7 +346,7 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 72U
+#define APP_REGISTERS_MAP_HOLDING 73U
 
 #define APP_REGISTERS_MAP_INPUT 153U
 

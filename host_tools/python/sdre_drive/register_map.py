@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "d9671dda"
+DIGEST = "0e9a34fe"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -84,6 +84,7 @@ TARGET: Tuple[Register, ...] = (  # holding
     Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
     Register("POSITION_WINDOW", 166, "u16", 0.0, "position units"),
     Register("PROFILE_SPEED_MAX", 167, "u32", 0.1, "r/min"),
+    Register("PROFILE_VELOCITY_RPM", 169, "u32", 0.1, "r/min"),
 )
 
 TRIM: Tuple[Register, ...] = (  # holding
@@ -352,7 +353,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["BAUD_RATE"], 9600, 115200, 115200.0, True, "", "acts when stored. Allowed are 9600, 19200, 38400, 57600 and 115200. Baud rate, LINE_FORMAT and DIRECTION_PIN act with the restart that stores them."),
     Parameter(BY_NAME["LINE_FORMAT"], 0, 2, 0.0, True, "", "0 even, 1 odd, 2 no parity. Even and odd parity have one stop bit; no parity has two."),
     Parameter(BY_NAME["DIRECTION_PIN"], 0, 1, 0.0, True, "", "1: pin high while the drive sends. It is for an RS-485 transceiver."),
-    Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
+    Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
     Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: the drive's limit"),
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
     Parameter(BY_NAME["PROFILE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "607Fh", "limit of SPEED, PROFILE_VELOCITY and TORQUE_SPEED_MAX; 0: SPEED_MAX. SPEED is cut to it, with bit 11 of the status word. A set-point of a position keeps the limit of the time when it was taken."),

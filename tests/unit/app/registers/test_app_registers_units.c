@@ -101,6 +101,10 @@ static void test_one_limit_of_all_commanded_speeds(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1000.0 * PER_RPM, (double)command().omega_e_radps);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 150.0, (double)command().profile_e_radps);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 900.0 * PER_RPM, (double)command().torque_speed_max_e_radps);
+    TEST_ASSERT_EQUAL_INT32(7162, holding_32(APP_REGISTERS_PROFILE_VELOCITY_RPM));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_32(APP_REGISTERS_PROFILE_VELOCITY_RPM, 5000));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 500.0 * PER_RPM, (double)command().profile_e_radps);
+    TEST_ASSERT_EQUAL_INT32(1047, holding_32(APP_REGISTERS_PROFILE_VELOCITY));
 }
 
 static void test_positions_are_shown_in_units(void)
