@@ -34,11 +34,17 @@ code=$?
 exit $((code == 130 && ${{#held[@]}} ? 0 : code))
 """
 # The one drive of a page is there before the page asks for it. A line that begins one has to be
-# right.
+# right. It gets free ports, and joins no bus.
 SERVER = f"""#!/bin/bash
 set -eu
 if [[ $1 == serve ]]; then
-    exec "{TOOLS}/sdre-sil" "$@" --tcp 0 --rtu-tcp 0 --control 0 --for 0.1
+    while (($# > 0)); do
+        case $1 in
+            --tcp | --join) shift 2 ;;
+            *) words+=("$1") && shift ;;
+        esac
+    done
+    exec "{TOOLS}/sdre-sil" "${{words[@]}}" --tcp 0 --rtu-tcp 0 --control 0 --for 0.1
 fi
 exec "{TOOLS}/sdre-sil" "$@"
 """
