@@ -17,6 +17,8 @@ constexpr Range  current_A{1e-3, 1e4};
 constexpr Range  dc_link_V{1.0, 2e4};
 constexpr Range  resistance_Ohm{10.0, 1e7};
 constexpr Range  temperature_degC{-40.0, 200.0};
+constexpr Range  offset_cnt{1.0, 1e3};
+constexpr Range  settle_s{0.0, 2e-5};
 constexpr double two_sensors = 2.0; // of a board file that does not tell
 
 std::array<Range, BOARD_FACT_COUNT> allowed_values(const Processor &p)
@@ -128,7 +130,13 @@ BoardFile read_board_table(const toml::table &root, const fs::path &file)
     for (std::size_t fact = 0; fact < allowed.size(); fact++) {
         b.facts.at(fact) = read_fact(t, fact, allowed.at(fact));
     }
+    b.offset_max_cnt   = t.number_or("current_offset_max_cnt", offset_cnt, b.offset_max_cnt);
+    b.current_settle_s = t.number_or("current_settle_s", settle_s, b.current_settle_s);
     t.reject_unknown_keys();
+    if (b[BOARD_FACT_CHOPPER_ON_V] > 0.0 && !b.processor->has_chopper_pin) {
+        t.fail(key_of(BOARD_FACT_CHOPPER_ON_V),
+               fmt::format("is not allowed: {} has no pin for a brake chopper", b.processor->name));
+    }
     if (b[BOARD_FACT_CURRENT_SENSORS] != std::floor(b[BOARD_FACT_CURRENT_SENSORS])) {
         t.fail(key_of(BOARD_FACT_CURRENT_SENSORS),
                fmt::format("= {:g} is not allowed: must be 2 or 3", b[BOARD_FACT_CURRENT_SENSORS]));

@@ -16,10 +16,16 @@ extern "C" {
 
 namespace sdre {
 
+/// Without the key: converter 15 codes, half of the supply with 1 % resistors 20 codes, sensor 1 % of its range 41 codes: 76, and room.
+constexpr double default_offset_max_cnt = 100.0;
+
 struct BoardFile {
-    std::string                          name;
-    std::string                          file; ///< that it was read from
-    const Processor                     *processor = &default_processor();
+    std::string      name;
+    std::string      file; ///< that it was read from
+    const Processor *processor = &default_processor();
+    double offset_max_cnt      = default_offset_max_cnt; ///< of a current sensor at zero current
+    double current_settle_s =
+        0.0; ///< of a shunt's amplifier after the lower switch is on; 0: sensors in the phases
     std::array<double, BOARD_FACT_COUNT> facts{};
 
     double operator[](board_fact_t fact) const

@@ -165,6 +165,12 @@ std::pair<std::string, std::string> board_refusal(const Drive &d)
         return {};
     }
     const BoardFile &b = *d.board.file;
+    if (d.inverter.updates_per_period > b.processor->most_updates) {
+        return {"[inverter] updates_per_period",
+                fmt::format("= {} is not allowed: must be {} on the processor {} of board \"{}\"",
+                            d.inverter.updates_per_period, b.processor->most_updates,
+                            b.processor->name, b.name)};
+    }
     if (d.inverter.dead_time_s < b[BOARD_FACT_DEAD_TIME_MIN_s]) {
         return {"[inverter] dead_time_s",
                 beyond(d.inverter.dead_time_s, b, "at least", BOARD_FACT_DEAD_TIME_MIN_s)};

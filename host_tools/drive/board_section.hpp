@@ -51,7 +51,7 @@ double board_number(TomlReader &t, const std::string &key, Range allowed,
 /// A limit of the drive that the board does not allow: "[motor] max_current_A", "= 7 is not allowed: ..". Empty: none.
 std::pair<std::string, std::string> board_refusal(const Drive &drive);
 
-/// The board has a brake chopper at GPIO8.
+/// The board has a brake chopper.
 bool has_chopper(const Drive &drive);
 
 /// "coast", "brake".

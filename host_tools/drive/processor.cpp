@@ -3,37 +3,44 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "drive/drive_file.hpp"
-
-extern "C" {
-#include "f28335/clock_tree.h"
-}
+#include "drive/processors/processors.hpp"
 
 namespace sdre {
 namespace {
 
-static_assert(BOARD_ADC_CODES == 1U << 12U);
-
-const std::array<Processor, 1> processors{{
-    {"f28335", CLOCK_SYSCLK_Hz, CLOCK_TBCLK_Hz,
-     65535.0, // the capture timer's run, board.c
-     CLOCK_DEAD_TIME_MAX_cnt, 12, 65532},
-}};
+const std::array<Processor, 2> &processors()
+{
+    static const std::array<Processor, 2> all{processor_f28335(), processor_stm32g431()};
+    return all;
+}
 
 } // namespace
 
+std::optional<double> Processor::dead_time_cnt(double wanted) const
+{
+    for (const DeadTimeRange &r : dead_times) {
+        const double cnt = std::max(std::ceil(wanted / r.step_cnt) * r.step_cnt, r.least_cnt);
+        if (cnt <= r.most_cnt) {
+            return cnt;
+        }
+    }
+    return {};
+}
+
 const Processor *find_processor(const std::string &name)
 {
-    const auto *const found = std::find_if(processors.begin(), processors.end(),
+    const auto *const found = std::find_if(processors().begin(), processors().end(),
                                            [&](const Processor &p) { return p.name == name; });
-    return found == processors.end() ? nullptr : found;
+    return found == processors().end() ? nullptr : found;
 }
 
 std::string processor_names()
 {
     std::string names;
-    for (const Processor &p : processors) {
+    for (const Processor &p : processors()) {
         names += (names.empty() ? "" : ", ") + p.name;
     }
     return names;
@@ -41,7 +48,7 @@ std::string processor_names()
 
 const Processor &default_processor()
 {
-    return processors.front();
+    return processors().front();
 }
 
 const Processor &processor_of(const Drive &drive)

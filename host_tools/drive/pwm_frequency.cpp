@@ -35,8 +35,12 @@ double law_cycles(const Drive &d)
     }
 }
 
+/// 0: none are recorded for the processor.
 double least_cycles(const Drive &d)
 {
+    if (!processor_of(d).has_cycle_budget) {
+        return 0.0;
+    }
     const double more =
         std::max(d.position ? cycle_budget::position : 0.0, d.torque ? cycle_budget::torque : 0.0);
     const double chopper = has_chopper(d) ? chopper_cycles : 0.0;
@@ -88,13 +92,28 @@ std::string pwm_refusal(const Drive &d, double pwm_Hz)
     if (full >= allowed.least && full <= allowed.most) {
         return "";
     }
-    return fmt::format(
+    const std::string ends = fmt::format(
         "= {:g} is not allowed: must be {:.0f} .. {:.0f}; a PWM period has at most {:g} cycles of "
-        "{:g} MHz, and law \"{}\"{} needs {:.0f}{} (docs/hardware.md, \"Cycle budget\")",
+        "{:g} MHz",
         pwm_Hz, std::ceil(counted_pwm_Hz(p, allowed.most)),
-        std::floor(counted_pwm_Hz(p, allowed.least)), p.most_cycles, 1e-6 * p.clock_Hz,
-        law_name(d.law), with_words(d), std::ceil(least_cycles(d)),
-        d.inverter.updates_per_period == 1 ? "" : " in each of its two updates");
+        std::floor(counted_pwm_Hz(p, allowed.least)), p.most_cycles, 1e-6 * p.clock_Hz);
+    if (!p.has_cycle_budget) {
+        return fmt::format("{}, and half of one at least {:g} counts", ends, least_full_cnt);
+    }
+    return fmt::format("{}, and law \"{}\"{} needs {:.0f}{} (docs/hardware.md, \"Cycle budget\")",
+                       ends, law_name(d.law), with_words(d), std::ceil(least_cycles(d)),
+                       d.inverter.updates_per_period == 1 ? "" : " in each of its two updates");
+}
+
+std::string cycles_note(const Drive &d)
+{
+    const Processor &p = processor_of(d);
+    return p.has_cycle_budget
+               ? ""
+               : fmt::format(
+                     "cycles of a control period: nothing checked, none are recorded for {}; "
+                     "it has {:.0f}\n",
+                     p.name, p.clock_Hz * control_period_s(d));
 }
 
 std::string pwm_words(const Inverter &i)

@@ -16,7 +16,7 @@ double pwm_full_cnt(const Processor &processor, double pwm_Hz);
 /// The frequency of so many counts.
 double counted_pwm_Hz(const Processor &processor, double full_cnt);
 
-/// Counts in half a period: at least what the whole period's cycles take, at most what the processor allows. EQ-BOARD-6
+/// Counts in half a period: at least what the whole period's cycles take, where they are recorded, at most what the processor allows. EQ-BOARD-6
 struct FullCountRange {
     double least;
     double most;
@@ -25,6 +25,9 @@ FullCountRange pwm_full_cnt_range(const Drive &drive);
 
 /// Why a drive cannot have this frequency, with both ends of what it can; empty when it can.
 std::string pwm_refusal(const Drive &drive, double pwm_Hz);
+
+/// That no cycles of a control period are recorded for the drive's processor, as a line; else nothing.
+std::string cycles_note(const Drive &drive);
 
 /// "5000 Hz", or "7999.147 Hz, the nearest to 8000 Hz that the counter has".
 std::string pwm_words(const Inverter &inverter);

@@ -23,8 +23,7 @@ extern "C" {
 namespace sdre {
 namespace {
 
-constexpr std::uint32_t store_address = 0x300000; // linker/f28335_registers.cmd
-constexpr std::size_t   hex_words     = 16;       // of a line
+constexpr std::size_t hex_words = 16; // of a line
 
 std::uint16_t high(std::uint32_t x)
 {
@@ -122,9 +121,15 @@ std::string image_octets(const std::vector<std::uint16_t> &words)
     return octets;
 }
 
-std::string image_hex(const std::vector<std::uint16_t> &words)
+std::string image_hex(const std::vector<std::uint16_t> &words, const Processor &processor)
 {
-    const auto                 count = static_cast<std::uint32_t>(words.size());
+    if (!processor.store_address) {
+        throw InputError(fmt::format("--hex is not for the processor {}: its flash is loaded over "
+                                     "the serial line (sdre-drive load)",
+                                     processor.name));
+    }
+    const std::uint32_t        store_address = *processor.store_address;
+    const auto                 count         = static_cast<std::uint32_t>(words.size());
     std::vector<std::uint16_t> all{STORE_MARK, STORE_IMAGE, high(count), low(count), 0, 1};
     const std::uint32_t        crc =
         crc32_words(crc32_words(CRC32_START, &all[1], 5), words.data(), count);

@@ -25,7 +25,7 @@ std::string image_list(const Design &design);
 std::string image_octets(const std::vector<std::uint16_t> &words);
 
 /// The same as Intel HEX for a programming tool, in the first slot of the store with its head, as the writing of number 1.
-/// Addresses count words of 16 bits.
-std::string image_hex(const std::vector<std::uint16_t> &words);
+/// Addresses count words of 16 bits. InputError for a processor with another store.
+std::string image_hex(const std::vector<std::uint16_t> &words, const Processor &processor);
 
 } // namespace sdre

@@ -199,7 +199,7 @@ std::string report_text(const Design &d, const std::optional<Prediction> &predic
 {
     std::string s = fmt::format("{} ({}), control period {:g} us\n", d.drive.name,
                                 drive_digest(d.drive), 1e6 * control_period_s(d.drive));
-    s += pwm_note(d.drive.inverter);
+    s += pwm_note(d.drive.inverter) + cycles_note(d.drive);
     s += machine_text(d, prediction) + "\nreduced parameters\n";
     for (std::size_t i = 1; i <= 11; i++) {
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);

@@ -47,7 +47,7 @@ int run(const Options &o)
                                       fmt::join(design.certificate.failures, "; ")));
     }
     const TableText text = table_text(design);
-    fmt::print("{}", pwm_note(design.drive.inverter));
+    fmt::print("{}{}", pwm_note(design.drive.inverter), cycles_note(design.drive));
     if (!o.out.empty()) {
         write_tables(text, o.out);
         fmt::print("{}: {}; wrote gain_tables.h, gain_tables.c and board_config.c to {}\n",

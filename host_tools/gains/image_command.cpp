@@ -53,13 +53,13 @@ int run(const Options &o)
         files.push_back({o.out, image_octets(words)});
     }
     if (!o.hex.empty()) {
-        files.push_back({o.hex, image_hex(words)});
+        files.push_back({o.hex, image_hex(words, processor_of(drive))});
     }
     if (!o.list.empty()) {
         files.push_back({o.list, image_list(design)});
     }
     write_files(files);
-    fmt::print("{}", pwm_note(design.drive.inverter));
+    fmt::print("{}{}", pwm_note(design.drive.inverter), cycles_note(design.drive));
     for (const OutputFile &file : files) {
         fmt::print("{}: certified; wrote {} words for {} to {}\n", design.drive.name, words.size(),
                    law_design(design.drive).name, file.path.string());

@@ -211,6 +211,113 @@ TEST(BoardConstants, TripLevelsAreWithinTheBoard)
 
 namespace {
 
+Drive second_board()
+{
+    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/m2310p_24v.toml");
+}
+
+/// Counts of the 256 codes of TIM1's DTG by the four lines of RM0440.
+unsigned dead_time_of(unsigned code)
+{
+    return code < 0x80U   ? code
+           : code < 0xC0U ? (64U + (code & 0x3FU)) * 2U
+           : code < 0xE0U ? (32U + (code & 0x1FU)) * 8U
+                          : (32U + (code & 0x1FU)) * 16U;
+}
+
+} // namespace
+
+// 170 MHz, a count a cycle; 0.6 us; 1000 lines; no chopper.
+TEST(SecondBoard, RegistersOfItsDrive)
+{
+    const app_config_t c = board_constants(second_board()).config;
+    EXPECT_EQ(c.board.duty_full_cnt, 4250);
+    EXPECT_EQ(c.board.pwm_cycles, 8500U);
+    EXPECT_EQ(c.board.dead_time_cnt, 102);
+    EXPECT_EQ(c.board.positions, 4000);
+    EXPECT_EQ(c.board.current_sensors, 3U);
+    EXPECT_EQ(c.board.chopper, 0U);
+    EXPECT_FLOAT_EQ(c.scale.current_A_per_cnt, 120.3125F / 4096.0F);
+    EXPECT_FLOAT_EQ(c.scale.offset_max_cnt, 600.0F);
+    EXPECT_FLOAT_EQ(board_constants(shipped()).config.scale.offset_max_cnt, 100.0F);
+}
+
+// No less than asked for, and no more than the next code has. The shortest is one count.
+TEST(SecondBoard, DeadTimeIsTheNextThatTheTimerHas)
+{
+    Drive d = second_board();
+    for (unsigned tenths = 1; tenths <= 10080; tenths += 3) {
+        const double wanted = tenths / 10.0;
+        unsigned     best   = 65535;
+        for (unsigned code = 1; code < 256; code++) {
+            const unsigned cnt = dead_time_of(code);
+            best               = cnt >= wanted && cnt < best ? cnt : best;
+        }
+        ASSERT_EQ(processor_of(d).dead_time_cnt(wanted).value_or(0.0), best) << wanted;
+    }
+    EXPECT_FALSE(processor_of(d).dead_time_cnt(1008.1));
+    d.inverter.dead_time_s = 3e-6; // 510 counts, between 504 and 512
+    EXPECT_EQ(board_constants(d).config.board.dead_time_cnt, 512);
+    d.inverter.dead_time_s = 6e-6;
+    EXPECT_NE(refusal(d).find("5.929e-06"), std::string::npos) << refusal(d);
+}
+
+// EQ-BOARD-8: lower switches on for the dead time and 1.3 us before the top, at any frequency.
+TEST(SecondBoard, ShuntsCarryTheirCurrentsWhenTheySettle)
+{
+    Drive d = second_board();
+    EXPECT_EQ(board_constants(d).config.gate.duty_max_cnt, 4250 - 102 - 221);
+    for (const double full : {1000.0, 2125.0, 4251.0, 8500.0, 17000.0, 21845.0}) {
+        d.inverter.pwm_frequency_Hz = 170e6 / (2.0 * full);
+        const app_config_t c        = board_constants(d).config;
+        const double       on_s     = (full - c.gate.duty_max_cnt - c.board.dead_time_cnt) / 170e6;
+        EXPECT_GT(on_s, 1.3e-6 - 1e-12) << full;
+        EXPECT_LE(c.gate.duty_max_cnt, 0.981 * full);
+        EXPECT_TRUE(on_s < 1.31e-6 || c.gate.duty_max_cnt >= std::floor(0.981 * full)) << full;
+    }
+    d.inverter.pwm_frequency_Hz = 170e6 / (2.0 * 640.0);
+    EXPECT_NE(refusal(d).find("leave a duty of 0.5"), std::string::npos) << refusal(d);
+    EXPECT_EQ(board_constants(shipped()).config.gate.duty_max_cnt, 7500);
+}
+
+// The zero may be 600 codes off, and the comparators act at 45 A.
+TEST(SecondBoard, TripLevelIsWhatTheConverterShows)
+{
+    Drive d = second_board();
+    EXPECT_NEAR(largest_trip_current_A(d), 60.15625 * (1.0 - 2.0 * 602.0 / 4096.0), 1e-9);
+    d.board.file->offset_max_cnt = 100.0;
+    EXPECT_EQ(largest_trip_current_A(d), 45.0);
+}
+
+TEST(SecondBoard, ItsFirmwareAcceptsTheConstants)
+{
+    const Drive            d      = second_board();
+    const Design           design = design_drive(d, Precision::quick);
+    BoardConstants         c      = board_constants(d);
+    const board_identity_t b      = board_identity_of(d);
+    EXPECT_STREQ(b.name, "b_g431b_esc1");
+    EXPECT_EQ(app_board_check(&b, &c.bind(), &design.config).field, BOARD_FIELD_NONE);
+}
+
+TEST(SecondBoard, WhatItsProcessorHasNot)
+{
+    const Processor &p = processor_of(second_board());
+    EXPECT_EQ(p.clock_Hz, 170e6);
+    EXPECT_EQ(p.counter_Hz, 170e6);
+    EXPECT_EQ(p.most_updates, 1);
+    EXPECT_FALSE(p.has_chopper_pin);
+    EXPECT_FALSE(p.has_cycle_budget);
+    const Processor &first = processor_of(shipped());
+    EXPECT_EQ(first.clock_Hz, 150e6);
+    EXPECT_EQ(first.counter_Hz, 75e6);
+    EXPECT_EQ(first.most_cycles, 65535.0);
+    EXPECT_EQ(first.most_updates, 2);
+    EXPECT_TRUE(first.has_chopper_pin);
+    EXPECT_TRUE(first.has_cycle_budget);
+}
+
+namespace {
+
 Drive with_chopper()
 {
     Drive d                               = shipped();

@@ -1017,7 +1017,7 @@ TEST(DriveFile, LimitsBeyondTheBoardAreRefused)
                      {"[encoder] lines = 15000 is not allowed", "edges a second at the trip speed",
                       "encoder_edges_Hz = 6.25e+06", "\"board_390w\""});
     expect_complaint(on_board().set("board", "name", "\"none\""),
-                     {"[board] name = \"none\"", "board_200w, board_390w"});
+                     {"[board] name = \"none\"", "b_g431b_esc1, board_200w, board_390w"});
     expect_complaint(on_board().set("board", "name", "\"../board_390w\""), {"[board] name must"});
 }
 
@@ -1077,8 +1077,57 @@ TEST(BoardFile, NamesAProcessorThatThereIs)
 {
     EXPECT_EQ(board_complaint(own_text() + "processor = \"f28335\"\n"), "accepted");
     const std::string what = board_complaint(own_text() + "processor = \"f28336\"\n");
-    EXPECT_EQ(what.rfind("processor = \"f28336\" is not allowed: must be one of f28335", 0), 0U)
+    EXPECT_EQ(
+        what.rfind("processor = \"f28336\" is not allowed: must be one of f28335, stm32g431", 0),
+        0U)
         << what;
+}
+
+TEST(BoardFile, FactsOfItsProcessorAreThose)
+{
+    const std::string other = own_text() + "processor = \"stm32g431\"\n";
+    EXPECT_EQ(board_complaint(other).rfind("pwm_clock_Hz = 7.5e+07 is not allowed", 0), 0U)
+        << board_complaint(other);
+    const std::string clocked = with_line(other, "pwm_clock_Hz", "170e6");
+    EXPECT_EQ(board_complaint(clocked), "accepted");
+    EXPECT_EQ(board_complaint(clocked + chopper_keys),
+              "chopper_on_V is not allowed: stm32g431 has no pin for a brake chopper");
+}
+
+TEST(BoardFile, OffsetAndTimeToSettleMayBeLeftOut)
+{
+    const auto facts = [](const std::string &more) {
+        const TempDir dir;
+        return sdre::read_board_file(dir.write("own.toml", own_text() + more));
+    };
+    EXPECT_EQ(facts("").offset_max_cnt, 100.0);
+    EXPECT_EQ(facts("").current_settle_s, 0.0);
+    EXPECT_EQ(facts("current_offset_max_cnt = 600\n").offset_max_cnt, 600.0);
+    EXPECT_EQ(facts("current_settle_s = 1.3e-6\n").current_settle_s, 1.3e-6);
+    for (const char *line : {"current_offset_max_cnt = 0", "current_offset_max_cnt = 1001",
+                             "current_settle_s = -1e-9", "current_settle_s = 2.1e-5"}) {
+        const std::string text = line;
+        EXPECT_EQ(
+            board_complaint(own_text() + text + "\n").rfind(text.substr(0, text.find(' ')), 0), 0U)
+            << line;
+    }
+}
+
+TEST(DriveFile, UpdatesInAPeriodAreThoseOfTheProcessor)
+{
+    std::string text =
+        support::read_file(SDRE_SOURCE_DIR "/firmware/config/drives/m2310p_24v.toml");
+    EXPECT_EQ(read(text).inverter.updates_per_period, 1);
+    text.replace(text.find("updates_per_period = 1"), 22, "updates_per_period = 2");
+    try {
+        read(text);
+        ADD_FAILURE();
+    } catch (const sdre::InputError &e) {
+        EXPECT_NE(std::string(e.what()).find("[inverter] updates_per_period = 2 is not allowed: "
+                                             "must be 1 on the processor stm32g431"),
+                  std::string::npos)
+            << e.what();
+    }
 }
 
 TEST(BoardFile, RatingsAreInOrder)

@@ -23,6 +23,8 @@ using support::TempDir;
 const std::string tool = "sdre-gains";
 const std::string shipped =
     std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/ipmsm_390w.toml";
+const std::string second_board =
+    std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/m2310p_24v.toml";
 const std::string tables = std::string(SDRE_SOURCE_DIR) + "/firmware/config";
 
 CommandResult gains(std::vector<std::string> arguments)
@@ -175,6 +177,26 @@ TEST(GainsCli, CommittedTablesCheck)
     const CommandResult r = gains({"generate", shipped, "--check", tables});
 
     EXPECT_EQ(r.exit_code, 0) << r.err;
+}
+
+TEST(GainsCli, CommittedTablesOfTheSecondBoardCheck)
+{
+    const CommandResult r = gains({"generate", second_board, "--check", tables + "/stm32g431"});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(r.out, "cycles of a control period: nothing checked, none are recorded for "
+                     "stm32g431; it has 8500\nm2310p_24v: certified; " +
+                         tables + "/stm32g431 matches\n");
+    EXPECT_EQ(gains({"generate", second_board, "--check", tables}).exit_code, 3);
+}
+
+// Octets, and 64 bits at once: not the words of an F28335.
+TEST(GainsCli, HexIsForTheStoreOfItsProcessor)
+{
+    const TempDir dir;
+    expect_refused({"image", second_board, "--hex", dir / "image.hex"}, 1,
+                   {"--hex", "stm32g431", "sdre-drive load"});
+    EXPECT_EQ(gains({"image", second_board, "--out", dir / "image"}).exit_code, 0);
 }
 
 TEST(GainsCli, CheckMismatchIsExitThree)

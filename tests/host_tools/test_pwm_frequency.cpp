@@ -204,3 +204,32 @@ TEST(PwmFrequency, UpperEndIsTheRecordedCycleBudget)
     EXPECT_NEAR(room("servo_200w_cdobc"), dearest("noc"), 4.0);
     EXPECT_NEAR(room("ipmsm_390w_conventional"), dearest("conventional"), 4.0);
 }
+
+// 170 MHz up and down: 4250 counts are 20 kHz. A period has at most 43690 cycles, 3891.05 Hz.
+TEST(PwmFrequency, SecondProcessorHasItsOwnCounter)
+{
+    const Drive d = shipped("m2310p_24v");
+    ASSERT_EQ(processor_of(d).name, "stm32g431");
+    EXPECT_EQ(pwm_full_cnt(processor_of(d), 20e3), 4250.0);
+    EXPECT_EQ(d.inverter.pwm_frequency_Hz, 20e3);
+    EXPECT_EQ(pwm_full_cnt_range(d).most, 21845.0);
+    EXPECT_EQ(pwm_refusal(d, 3892.0), "");
+    const std::string slow = pwm_refusal(d, 3890.0);
+    EXPECT_NE(slow.find("must be 3892 .. 170000"), std::string::npos) << slow;
+    EXPECT_NE(slow.find("43690 cycles of 170 MHz"), std::string::npos) << slow;
+    EXPECT_EQ(complaint("m2310p_24v", 19000.0, 1), "");
+}
+
+// The cycle budget is the F28335's: with it [position] at 20 kHz is refused.
+TEST(PwmFrequency, NoBudgetOfAnotherProcessorIsApplied)
+{
+    Drive d = shipped("m2310p_24v");
+    ASSERT_TRUE(d.position);
+    EXPECT_EQ(pwm_refusal(d, 20e3), "");
+    EXPECT_EQ(cycles_note(d), "cycles of a control period: nothing checked, none are recorded for "
+                              "stm32g431; it has 8500\n");
+    EXPECT_EQ(cycles_note(shipped("ipmsm_390w")), "");
+    EXPECT_EQ(cycles_note(shipped("ipmsm_390w_10khz")), "");
+    d.board.file->processor = find_processor("f28335");
+    EXPECT_NE(pwm_refusal(d, 20e3).find("with [position] needs"), std::string::npos);
+}

@@ -29,7 +29,8 @@ EXPECTED = pathlib.Path(__file__).with_name("expected.json")
 SCENARIOS = ROOT / "host_tools/sil/scenarios"
 DRIVES = ROOT / "firmware/config/drives"
 
-# Drives beside the scenario's own. Paper B's laws take the servo's scenarios only.
+# Drives beside the scenario's own. Paper B's laws take the servo's scenarios only. The 24 V drive
+# takes its own.
 IPMSM_SCENARIOS = (
     "board_load_step",
     "board_reversal",
@@ -58,11 +59,13 @@ def cases():
     """(name, arguments of sdre-sil) of every run."""
     for scenario in sorted(SCENARIOS.glob("*.toml")):
         yield scenario.stem, ["run", scenario]
-        if scenario.stem.startswith("board_"):
+        if scenario.stem.startswith(("board_", "m2310p_")):
             for board in BOARDS if scenario.stem in ON_BOTH_BOARDS else BOARDS[:1]:
                 yield f"{scenario.stem} {board}", ["run", scenario, "--board", board]
     for drive in sorted(DRIVES.glob("*.toml")):
         names = SERVO_SCENARIOS if drive.stem.startswith("servo_") else IPMSM_SCENARIOS
+        if drive.stem.startswith("m2310p_"):
+            names = ()
         if any(rival in drive.stem for rival in ("pi_foc", "ladrc", "counts")):
             names = ("board_torque",) if "torque" in drive.stem else names[:1]
         for name in names:

@@ -120,18 +120,20 @@ TEST(Scenario, ShippedScenariosAreRead)
         const bool fault     = entry.path().parent_path().stem() == "faults";
         const bool board     = s.name.rfind("board_", 0) == 0 || fault;
         const bool servo     = s.name.rfind("servo_", 0) == 0;
+        const bool m2310p    = s.name.rfind("m2310p_", 0) == 0;
         const bool harmonics = s.name.rfind("harmonics_", 0) == 0;
         EXPECT_EQ(s.drive.name, servo       ? "servo_200w_cdobc"
+                                : m2310p    ? "m2310p_24v"
                                 : harmonics ? "ipmsm_390w_noc_h_edges"
                                 : board     ? "ipmsm_390w"
                                             : "ipmsm_390w_speed")
             << s.name;
-        EXPECT_EQ(s.sensors.ideal, !board && !servo && !harmonics) << s.name;
+        EXPECT_EQ(s.sensors.ideal, !board && !servo && !harmonics && !m2310p) << s.name;
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    // Fig. 4 with four orders, Fig. 5 to 8; eighteen on the realistic board; two of paper B; two of noc_h; faults
-    EXPECT_EQ(count, 30 + 20);
+    // Fig. 4 with four orders, Fig. 5 to 8; eighteen on the realistic board; two of paper B; two of noc_h; two of 24 V; faults
+    EXPECT_EQ(count, 32 + 20);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }

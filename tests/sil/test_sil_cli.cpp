@@ -300,6 +300,40 @@ TEST(SilCli, SeedsRunOnABoardToo)
     EXPECT_EQ(dip({"--seeds", "2"}), std::max(dip({"--seed", "1"}), dip({"--seed", "2"})));
 }
 
+// 170 MHz counter, bootstrap supplies that are charged before the run, commands in the period that the scenario names.
+TEST(SilCli, ADriveForAnotherProcessorRunsOnTheFakeBoardAlone)
+{
+    const TempDir     dir;
+    const std::string root     = SDRE_SOURCE_DIR;
+    const std::string scenario = root + "/host_tools/sil/scenarios/m2310p_speed_step.toml";
+    const auto        measures = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"--json", dir / "r.json"});
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 0) << r.err;
+        return support::Json::read(dir / "r.json").at("measures");
+    };
+    const support::Json core = measures({"run", scenario});
+    const support::Json api  = measures({"run", scenario, "--board", "api"});
+    for (const char *name : {"rated_speed", "largest_speed"}) {
+        const auto number = [&](const support::Json &of, const char *key) {
+            return of.at(name).at(key).number();
+        };
+        EXPECT_NEAR(number(api, "settling_time_s"), number(core, "settling_time_s"), 8e-4) << name;
+        EXPECT_NEAR(number(api, "ripple_e_radps"), number(core, "ripple_e_radps"), 0.4) << name;
+        EXPECT_LT(number(api, "overshoot_e_radps"), 3.0) << name;
+        EXPECT_LT(number(api, "peak_current_A"), 1.05 * 14.0) << name;
+    }
+    for (const std::vector<std::string> &arguments :
+         {std::vector<std::string>{"run", scenario, "--board", "f28335"},
+          {"serve", root + "/firmware/config/drives/m2310p_24v.toml", "--tcp", "0"}}) {
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 1);
+        EXPECT_NE(r.err.find("cannot be the stm32g431 of board \"b_g431b_esc1\""),
+                  std::string::npos)
+            << r.err;
+    }
+}
+
 TEST(SilCli, AnotherDriveTakesThePlaceOfTheScenarios)
 {
     const TempDir     dir;

@@ -24,19 +24,25 @@ static void test_identity_is_whole(void)
     TEST_ASSERT_EQUAL_HEX32(board_identity_sum(&board_identity), board_identity.sum);
 }
 
-/* All but the limits of the motor that the tables are for. */
-static void test_only_the_motor_contradicts_the_board(void)
+static void test_tables_and_constants_are_of_this_board(void)
 {
-    drive_config_t           drive = gain_tables_drive;
-    const board_difference_t found = app_board_check(&board_identity, &board_config, &drive);
+    const board_difference_t found =
+        app_board_check(&board_identity, &board_config, &gain_tables_drive);
 
-    TEST_ASSERT_EQUAL_STRING("rated_dc_link_V", board_field_name(found.field));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_config_check(&board_config, &drive));
-    drive.dc_link_min_V = 0.5f * board_identity.fact[BOARD_FACT_RATED_DC_LINK_V];
-    drive.dc_link_max_V = board_identity.fact[BOARD_FACT_RATED_DC_LINK_V];
-    TEST_ASSERT_EQUAL_STRING(
-        "", board_field_name(app_board_check(&board_identity, &board_config, &drive).field));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_config_check(&board_config, &drive));
+    TEST_ASSERT_EQUAL_STRING("b_g431b_esc1", board_identity.name);
+    TEST_ASSERT_EQUAL_STRING("", board_field_name(found.field));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_config_check(&board_config, &gain_tables_drive));
+}
+
+/* board_fits() of board.c: a count is a cycle. */
+static void test_period_is_that_of_the_timer(void)
+{
+    const double period_s = (double)board_config.board.pwm_cycles / CLOCK_SYSCLK_Hz;
+
+    TEST_ASSERT_EQUAL_UINT32(2UL * board_config.board.duty_full_cnt, board_config.board.pwm_cycles);
+    TEST_ASSERT_TRUE(board_config.board.pwm_cycles <= CLOCK_PERIOD_MAX_cycles);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-7 * period_s, period_s, (double)board_config.pwm_period_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 50e-6, period_s);
 }
 
 static void test_currents_are_those_of_network_and_amplifier(void)
@@ -62,7 +68,7 @@ static void test_shunts_are_read_at_the_largest_duty(void)
     const double before_s = off_s - dead_s;
     const double held_s   = (2.0 * SAMPLE_6_5 + CONVERT_cnt) / CLOCK_ADCCLK_Hz;
 
-    TEST_ASSERT_TRUE(before_s >= SETTLE_s);
+    TEST_ASSERT_TRUE(before_s > (SETTLE_s - 1e-12));
     TEST_ASSERT_TRUE(off_s >= held_s);
     TEST_ASSERT_TRUE(before_s < 1.05 * SETTLE_s); /* and no more voltage is given away */
 }
@@ -71,7 +77,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_identity_is_whole);
-    RUN_TEST(test_only_the_motor_contradicts_the_board);
+    RUN_TEST(test_tables_and_constants_are_of_this_board);
+    RUN_TEST(test_period_is_that_of_the_timer);
     RUN_TEST(test_currents_are_those_of_network_and_amplifier);
     RUN_TEST(test_shunts_are_read_at_the_largest_duty);
     return UNITY_END();

@@ -3,10 +3,6 @@
 #include "peripherals.h"
 #include "prepare.h"
 
-/* Half the range of the 16-bit capture timer. An edge in the period before the latch keeps its age,
- * even if the interrupt is late by a period. */
-#define CAPTURE_CYCLES_MAX (65535UL << (CLOCK_CAPTURE_SHIFT - 1U))
-
 static const board_setup_t *in_force;
 static bool                 clocked; /* the clock is good */
 
@@ -14,7 +10,7 @@ bool board_fits(const board_setup_t *s)
 {
     return (s->duty_full_cnt > 0U) &&
            (s->pwm_cycles == (2UL * CLOCK_SYSCLK_PER_TBCLK * (uint32_t)s->duty_full_cnt)) &&
-           (s->pwm_cycles <= CAPTURE_CYCLES_MAX) && (s->dead_time_cnt > 0U) &&
+           (s->pwm_cycles <= CLOCK_PERIOD_MAX_cycles) && (s->dead_time_cnt > 0U) &&
            (s->dead_time_cnt <= CLOCK_DEAD_TIME_MAX_cnt) &&
            ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U) &&
            ((s->current_sensors == 2U) ||

@@ -6,14 +6,10 @@
 static const board_setup_t *in_force;
 static bool                 clocked; /* the clock is good */
 
-/* An edge in the period before the latch has its age in 16 bits, even if the interrupt is late by
- * half a period. */
-#define PERIOD_CYCLES_MAX 43690UL
-
 bool board_fits(const board_setup_t *s)
 {
     return (s->duty_full_cnt > 0U) && (s->pwm_cycles == (2UL * (uint32_t)s->duty_full_cnt)) &&
-           (s->pwm_cycles <= PERIOD_CYCLES_MAX) && (pwm_dead_time(s->dead_time_cnt) != 0UL) &&
+           (s->pwm_cycles <= CLOCK_PERIOD_MAX_cycles) && (pwm_dead_time(s->dead_time_cnt) != 0UL) &&
            ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U) &&
            ((s->current_sensors == 2U) ||
             (s->current_sensors == (uint16_t)BOARD_CURRENT_SENSORS)) &&

@@ -21,6 +21,16 @@
 #define CLOCK_ADCCLK_Hz     (CLOCK_SYSCLK_Hz / 4UL)
 #define CLOCK_ADCCLK_MAX_Hz 52000000UL
 
+/** Longest PWM period. An edge in the period before the latch has its age in 16 bits, even if the
+ *  interrupt is late by half a period. */
+#define CLOCK_PERIOD_MAX_cycles 43690UL
+
+/** Dead times of TIM1: steps of 1, 2, 8 and 16 counts, each from where the one before ends.
+ *  range(least, most, step, DTG of the least) in counts. */
+#define CLOCK_DEAD_TIMES(range)                                                                    \
+    range(1U, 127U, 1U, 0x01U), range(128U, 254U, 2U, 0x80U), range(256U, 504U, 8U, 0xC0U),        \
+        range(512U, 1008U, 16U, 0xE0U)
+
 #define CLOCK_BAUD_Hz 115200UL /**< the fastest rate, as on the other board */
 /** BRR of the nearest rate. */
 #define CLOCK_BRR(baud_Bd)            ((CLOCK_SYSCLK_Hz + ((baud_Bd) / 2UL)) / (baud_Bd))

@@ -15,7 +15,6 @@
 
 static uint16_t full_cnt;
 
-/* Steps of 1, 2, 8 and 16 counts, each from where the one before ends. */
 typedef struct {
     uint16_t least_cnt;
     uint16_t most_cnt;
@@ -23,10 +22,12 @@ typedef struct {
     uint16_t code; /* DTG of the least */
 } range_t;
 
-static const range_t ranges[] = {{1U, 127U, 1U, 0x01U},
-                                 {128U, 254U, 2U, 0x80U},
-                                 {256U, 504U, 8U, 0xC0U},
-                                 {512U, 1008U, 16U, 0xE0U}};
+#define RANGE(least, most, step, code)                                                             \
+    {                                                                                              \
+        (least), (most), (step), (code)                                                            \
+    }
+
+static const range_t ranges[] = {CLOCK_DEAD_TIMES(RANGE)};
 
 uint32_t pwm_dead_time(uint16_t dead_time_cnt)
 {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,9 +21,7 @@ namespace {
 constexpr double pi         = 3.14159265358979323846;
 constexpr double same_ratio = 1e-4; // what the application takes for the same number
 
-// Converter 15 codes, half of the supply with 1 % resistors 20 codes, sensor 1 % of its range 41 codes: 76, and room.
-constexpr double offset_max_cnt = 100.0;
-// Twice the 41 codes.
+// Twice the 41 codes of a sensor that is off by 1 % of its range.
 constexpr double zero_drift_share = 0.02;
 // The mark is up to one line wide and is entered from either side.
 constexpr int index_tolerance_cnt = 4;
@@ -67,6 +66,11 @@ constexpr double zero_degC_K   = 273.15;
         fmt::format("a board with the processor {} cannot have {}", processor_of(d).name, what));
 }
 
+double offset_max_cnt(const Drive &d)
+{
+    return d.board.file ? d.board.file->offset_max_cnt : BoardFile{}.offset_max_cnt;
+}
+
 double codes_of(const Drive &d)
 {
     return std::exp2(processor_of(d).adc_bits);
@@ -103,13 +107,14 @@ board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
     s.duty_full_cnt = full_cnt(d);
     s.pwm_cycles    = static_cast<std::uint32_t>(p.cycles_per_cnt() * s.duty_full_cnt);
     // No less than asked for; the last digit of a product is no count.
-    const double dead = std::ceil(d.inverter.dead_time_s * p.counter_Hz - same_ratio);
-    if (dead < 1.0 || dead > p.most_dead_time_cnt) {
+    const double                wanted = d.inverter.dead_time_s * p.counter_Hz - same_ratio;
+    const std::optional<double> dead   = p.dead_time_cnt(wanted);
+    if (wanted <= 0.0 || !dead) {
         refuse(d, fmt::format("[inverter] dead_time_s = {:g}: must be {:.2g} .. {:.4g}",
-                              d.inverter.dead_time_s, 1.0 / p.counter_Hz,
-                              p.most_dead_time_cnt / p.counter_Hz));
+                              d.inverter.dead_time_s, p.least_dead_time_cnt() / p.counter_Hz,
+                              p.most_dead_time_cnt() / p.counter_Hz));
     }
-    s.dead_time_cnt = static_cast<std::uint16_t>(dead);
+    s.dead_time_cnt = static_cast<std::uint16_t>(*dead);
     if (4 * d.encoder.lines > p.most_positions) {
         refuse(d, fmt::format("[encoder] lines = {}: at most {}", d.encoder.lines,
                               p.most_positions / 4));
@@ -130,7 +135,7 @@ app_scale_config_t scale_of(const Drive &d) // EQ-BOARD-2
     app_scale_config_t s{};
     s.current_A_per_cnt = single(2.0 * d.current_sensors.range_A / codes);
     s.current_zero_cnt  = single(codes / 2.0);
-    s.offset_max_cnt    = single(offset_max_cnt);
+    s.offset_max_cnt    = single(offset_max_cnt(d));
     s.dc_link_V_per_cnt = single(d.board.dc_link_range_V / codes);
     s.ntc_first_cnt     = ntc_first_cnt;
     s.ntc_step_cnt      = ntc_step_cnt;
@@ -198,7 +203,27 @@ app_align_config_t align_of(const Drive &d, double pwm_Hz)
     return a;
 }
 
-app_gate_config_t gate_of(const Drive &d, std::uint16_t full, double pwm_Hz)
+/// Shunts carry the currents while all lower switches are on, around the instant of the samples. Before it lie the dead time
+/// and the amplifiers' time to settle. EQ-BOARD-8
+double most_duty_cnt(const Drive &d, const board_setup_t &s)
+{
+    const double of_supplies = std::floor(d.board.duty_max * s.duty_full_cnt);
+    const double settle_s    = d.board.file ? d.board.file->current_settle_s : 0.0;
+    if (settle_s <= 0.0) {
+        return of_supplies;
+    }
+    const double settle = std::ceil(settle_s * processor_of(d).counter_Hz - same_ratio);
+    const double most =
+        std::min(of_supplies, static_cast<double>(s.duty_full_cnt - s.dead_time_cnt) - settle);
+    if (most < 0.5 * s.duty_full_cnt) { // app_gate.c takes no less
+        refuse(d, fmt::format("[inverter] pwm_frequency_Hz = {:.7g}: dead time and "
+                              "current_settle_s leave a duty of {:.2g}, at least 0.5",
+                              d.inverter.pwm_frequency_Hz, std::max(most, 0.0) / s.duty_full_cnt));
+    }
+    return most;
+}
+
+app_gate_config_t gate_of(const Drive &d, const board_setup_t &s, double pwm_Hz)
 {
     const Motor      &m = d.motor;
     app_gate_config_t g{};
@@ -209,9 +234,10 @@ app_gate_config_t gate_of(const Drive &d, std::uint16_t full, double pwm_Hz)
             ? std::min(m.max_current_A * m.stator_resistance_Ohm / std::max(m.pm_flux_Wb, 1e-9),
                        trip_speed_e_radps(d))
             : 0.0);
-    g.duty_max_cnt  = static_cast<std::uint16_t>(std::floor(d.board.duty_max * full));
-    g.pulse_min_cnt = static_cast<std::uint16_t>(std::min(
-        std::ceil(d.board.pulse_min_s * processor_of(d).counter_Hz), std::floor(0.25 * full)));
+    g.duty_max_cnt  = static_cast<std::uint16_t>(most_duty_cnt(d, s));
+    g.pulse_min_cnt = static_cast<std::uint16_t>(
+        std::min(std::ceil(d.board.pulse_min_s * processor_of(d).counter_Hz),
+                 std::floor(0.25 * s.duty_full_cnt)));
     return g;
 }
 
@@ -247,8 +273,8 @@ app_chopper_config_t chopper_of(const Drive &d)
 double largest_trip_current_A(const Drive &drive)
 {
     // Less the zero's largest error, and a code.
-    const double shown =
-        drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes_of(drive));
+    const double shown = drive.current_sensors.range_A *
+                         (1.0 - 2.0 * (offset_max_cnt(drive) + 2.0) / codes_of(drive));
     return drive.board.file ? std::min(shown, (*drive.board.file)[BOARD_FACT_TRIP_CURRENT_A])
                             : shown;
 }
@@ -275,7 +301,7 @@ BoardConstants board_constants(const Drive &d)
     out.digest           = drive_digest(d);
     c.angle              = angle_of(d);
     c.align              = align_of(d, pwm_Hz);
-    c.gate               = gate_of(d, c.board.duty_full_cnt, pwm_Hz);
+    c.gate               = gate_of(d, c.board, pwm_Hz);
     c.stop.reaction      = d.board.stop == StopReaction::brake ? APP_STOP_RAMP : APP_STOP_COAST;
     c.stop.still_e_radps = single(still_per_rated * d.motor.rated_speed_e_radps);
     c.stop.short_circuit = true; // whatever takes the energy: it need not take that of any speed

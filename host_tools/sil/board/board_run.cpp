@@ -12,6 +12,8 @@
 
 extern "C" {
 #include "app.h"
+
+extern app_config_t sil_board_config;
 }
 
 namespace sdre {
@@ -171,7 +173,10 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
     if (bring_to_run(*run, first_tenths) != start_tick) {
         throw InputError("--board: the start of the firmware does not repeat itself");
     }
-    Commands commands(s, ticks_of(s), start_tick - ticks_in(run_s, control_period_s(s.drive)));
+    // The first command waits until the gates' supplies are charged, those of a running drive do not.
+    const long latency_ticks = start_tick - ticks_in(run_s, control_period_s(s.drive)) -
+                               sil_board_config.gate.precharge_ticks;
+    Commands commands(s, ticks_of(s), latency_ticks);
     out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {
         // The board stands at the tick: the application has answered its samples.
         TickEnd end;

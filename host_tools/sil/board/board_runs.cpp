@@ -37,6 +37,16 @@ float omega_of(int tenths)
 
 } // namespace
 
+void require_f28335(const Drive &drive)
+{
+    const Processor &p = processor_of(drive);
+    if (p.name != "f28335") {
+        throw InputError(fmt::format("{}: the virtual F28335 cannot be the {} of board \"{}\"; "
+                                     "sdre-sil run has --board api",
+                                     drive.name, p.name, drive.board.file->name));
+    }
+}
+
 void set_firmware(const drive_config_t &config, const Drive &drive)
 {
     static BoardConstants constants;
@@ -47,7 +57,8 @@ void set_firmware(const drive_config_t &config, const Drive &drive)
 }
 
 ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
-    : BoardRun(s, start_tick), fake_(bench_, dead_time_s, s.drive.board.dc_link_range_V),
+    : BoardRun(s, start_tick),
+      fake_(bench_, dead_time_s, s.drive.board.dc_link_range_V, processor_of(s.drive).counter_Hz),
       choice_(fake_)
 {
     if (!board_init(&sil_board_config.board) ||
@@ -117,6 +128,7 @@ F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
       device_(surroundings_, f28335::whole_firmware(), {{}, dead_time_s}),
       master_(device_.serial(), static_cast<std::uint8_t>(sil_board_config.modbus_address))
 {
+    require_f28335(s.drive);
     f28335::hang_ticks(false);
     if (!device_.run_until([this] { return bench_.tick() >= 0; }, longest_boot_s)) {
         std::string why = "--board: the firmware does not start";

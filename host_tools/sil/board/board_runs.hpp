@@ -128,6 +128,9 @@ private:
     std::size_t               commission_writes_ = 0;
 };
 
+/// InputError when the drive's board has another processor.
+void require_f28335(const Drive &drive);
+
 /// The constants that main() hands to board and application: those of the controller, and what the board is for the drive.
 /// InputError when the board cannot have it.
 void set_firmware(const drive_config_t &config, const Drive &drive);

@@ -10,10 +10,9 @@ namespace {
 
 // Three pairs at 25 MHz: 2.5 + 6 + 5 + 2 * 8 clocks from the trigger to the tick (EQ-CONVERTER-2).
 constexpr double tick_delay_s = 29.5 / 25e6;
-constexpr double count_Hz     = 75e6;
 
 /// The counter runs down, then up; a period with two updates is one of the ways.
-LegTiming pulse(int duty_cnt, int full, double dead_time_s, Count count)
+LegTiming pulse(int duty_cnt, int full, double counter_Hz, double dead_time_s, Count count)
 {
     LegTiming leg;
     leg.duty         = static_cast<double>(2 * duty_cnt) / (2 * full);
@@ -24,8 +23,8 @@ LegTiming pulse(int duty_cnt, int full, double dead_time_s, Count count)
     if (duty_cnt <= 0 || duty_cnt >= full) {
         return leg;
     }
-    const auto add = [&leg](int time_cnt, bool high) {
-        leg.changes.at(static_cast<std::size_t>(leg.count++)) = {time_cnt / count_Hz, high};
+    const auto add = [&leg, counter_Hz](int time_cnt, bool high) {
+        leg.changes.at(static_cast<std::size_t>(leg.count++)) = {time_cnt / counter_Hz, high};
     };
     if (count != Count::up) {
         add(full - duty_cnt, true);
@@ -43,8 +42,10 @@ std::uint16_t position_of(std::int64_t count, std::int64_t turn)
 
 } // namespace
 
-FakeBoard::FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V)
-    : bench_(bench), dead_time_s_(dead_time_s), dc_link_range_V_(dc_link_range_V)
+FakeBoard::FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V,
+                     double counter_Hz)
+    : bench_(bench), dead_time_s_(dead_time_s), dc_link_range_V_(dc_link_range_V),
+      counter_Hz_(counter_Hz)
 {
 }
 
@@ -86,9 +87,9 @@ void FakeBoard::tick()
     count_      = updates_ == 1 ? Count::down_up : count_ == Count::down ? Count::up : Count::down;
     bench_.begin_tick();
     const int full = setup_.duty_full_cnt;
-    bench_.begin_period({pulse(active_cnt_[0], full, dead_time_s_, count_),
-                         pulse(active_cnt_[1], full, dead_time_s_, count_),
-                         pulse(active_cnt_[2], full, dead_time_s_, count_)});
+    bench_.begin_period({pulse(active_cnt_[0], full, counter_Hz_, dead_time_s_, count_),
+                         pulse(active_cnt_[1], full, counter_Hz_, dead_time_s_, count_),
+                         pulse(active_cnt_[2], full, counter_Hz_, dead_time_s_, count_)});
     if (enable_) { // as the board does: at the start of the period, with the duty ratios of the tick before
         enable_ = false;
         set_gates(true);

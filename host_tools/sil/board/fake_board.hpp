@@ -14,7 +14,8 @@ namespace sdre::f28335 {
 class FakeBoard {
 public:
     /// @param dc_link_range_V Range of the dc link's converter.
-    FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V);
+    /// @param counter_Hz Of the PWM.
+    FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V, double counter_Hz);
 
     /// One control period: the tick that board_start() got.
     void tick();
@@ -52,6 +53,7 @@ private:
     MotorBench   &bench_;
     double        dead_time_s_;
     double        dc_link_range_V_;
+    double        counter_Hz_;
     board_setup_t setup_{};
     void (*tick_)(void)         = nullptr;
     unsigned           updates_ = 1;

@@ -108,7 +108,10 @@ void MotorBench::set_legs(const std::array<bool, 3> &enabled, double into_period
 {
     legs_ = enabled;
     if (!board_) {
-        driven_while_held_ = driven_while_held_ || enabled[0] || enabled[1] || enabled[2];
+        // Before a run all lower switches charge the gates' supplies.
+        const long charge_ticks = std::lround(scenario_.drive.board.precharge_s / period_s_);
+        const bool on           = enabled[0] || enabled[1] || enabled[2];
+        driven_while_held_      = driven_while_held_ || (on && tick_ < start_tick_ - charge_ticks);
         return;
     }
     advance_to(into_period_s);

@@ -73,7 +73,7 @@ public:
     {
         return board_ && board_->runaway();
     }
-    /// Somebody drove the motor while the shaft was held.
+    /// Somebody drove the motor while the shaft was held, earlier than the board's precharge.
     bool driven_while_held() const
     {
         return driven_while_held_;

@@ -32,6 +32,7 @@ constexpr int pin_positive = 33;
 /// The firmware's constants, before anything of the board is made.
 Controller bound(const Scenario &s)
 {
+    require_f28335(s.drive);
     Controller c = prepare_controller(s, Precision::extended);
     set_firmware(c.config, s.drive);
     return c;
