@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The table of boards in docs/hardware.md, from firmware/config/boards.
+"""The table of boards around the F28335 in docs/hardware.md, from firmware/config/boards.
 
     boards.py write    rewrites the table between its markers
     boards.py check    exit code 1: the table is not that of the board files
@@ -25,7 +25,8 @@ NTC_CODES = (512, 3968)  # ends of the table, host_tools/design/board/board_cons
 
 def read():
     files = sorted((ROOT / "firmware/config/boards").glob("*.toml"))
-    return [tomllib.loads(file.read_text()) for file in files]
+    boards = [tomllib.loads(file.read_text()) for file in files]
+    return [board for board in boards if board.get("processor", "f28335") == "f28335"]
 
 
 def temperature_degC(board, code):

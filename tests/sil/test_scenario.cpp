@@ -132,7 +132,7 @@ TEST(Scenario, ShippedScenariosAreRead)
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    // Fig. 4 with four orders, Fig. 5 to 8; eighteen on the realistic board; two of paper B; two of noc_h; two of 24 V; faults
+    // Fig. 4 with four orders, Fig. 5 to 8; eighteen on the realistic board. Two each of paper B, noc_h and 24 V; faults
     EXPECT_EQ(count, 32 + 20);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);

@@ -33,8 +33,8 @@
 /** The encoder's capture timer: SYSCLK / 2^this. */
 #define CLOCK_CAPTURE_SHIFT 1U
 
-/** Longest PWM period: half the range of the 16-bit capture timer. An edge in the period before the latch
- *  keeps its age, even if the interrupt is late by a period. */
+/** Longest PWM period: half the range of the 16-bit capture timer. An edge in the period before the
+ *  latch keeps its age, even if the interrupt is late by a period. */
 #define CLOCK_PERIOD_MAX_cycles (65535UL << (CLOCK_CAPTURE_SHIFT - 1U))
 
 #define CLOCK_DEAD_TIME_MAX_cnt 1023UL /**< ten bits */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Constants of the application and of the board layer, from the drive file (EQ-BOARD-1 to
-/// 6).
+/// 8).
 #pragma once
 
 #include <array>

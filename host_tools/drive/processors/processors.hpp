@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the headers of each board's directory say of its processor. Two of them name the same macros: one file for each.
+/// Each processor by the headers of its board's directory. They name the same macros, so each has a file of its own.
 #pragma once
 
 #include "drive/processor.hpp"

@@ -14,7 +14,7 @@ namespace sdre::f28335 {
 class FakeBoard {
 public:
     /// @param dc_link_range_V Range of the dc link's converter.
-    /// @param counter_Hz Of the PWM.
+    /// @param counter_Hz Clock of the PWM counter.
     FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V, double counter_Hz);
 
     /// One control period: the tick that board_start() got.
