@@ -323,6 +323,15 @@ TEST(SilCli, ADriveForAnotherProcessorRunsOnTheFakeBoardAlone)
         EXPECT_LT(number(api, "overshoot_e_radps"), 3.0) << name;
         EXPECT_LT(number(api, "peak_current_A"), 1.05 * 14.0) << name;
     }
+    // Every edge of the legs has its time in counts.
+    const std::string load = support::replaced(
+        support::read_file(root + "/host_tools/sil/scenarios/m2310p_load_step.toml"), "../../..",
+        root);
+    const support::Json switched = measures(
+        {"run", dir.write("s.toml", load + "\n[inverter]\nmodel = \"switched\"\n").string(),
+         "--board", "api"});
+    EXPECT_NEAR(switched.at("load_step").at("steady_current_A").number(), 7.04, 0.1);
+    EXPECT_LT(switched.at("load_step").at("ripple_e_radps").number(), 1.0);
     for (const std::vector<std::string> &arguments :
          {std::vector<std::string>{"run", scenario, "--board", "f28335"},
           {"serve", root + "/firmware/config/drives/m2310p_24v.toml", "--tcp", "0"}}) {
