@@ -202,7 +202,7 @@ static app_control_seen_t seen_now(void)
         .arrived       = runs && m->drive.answer.arrived,
         .position      = &m->position,
         .angle         = &m->angle,
-        .inputs        = board_inputs(),
+        .inputs        = (tick_side.requested.inputs_used != 0U) ? board_inputs() : 0U,
         .ticks         = m->ticks};
     return seen;
 }
