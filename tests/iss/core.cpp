@@ -5,6 +5,27 @@
 #include <cstdio>
 #include <stdexcept>
 
+// Unicorn 2.0 looks at each store for translated code in the same page, which takes half the time of a run. Memory that a
+// program can write has no code here, see add_memory(): these take the place of Unicorn's own functions.
+extern "C" {
+void *page_collection_lock_arm(void *engine, std::uint64_t start, std::uint64_t end);
+void  page_collection_unlock_arm(void *pages);
+void  tb_invalidate_phys_page_fast_arm(void *engine, void *pages, std::uint64_t start, int octets,
+                                       std::uintptr_t from);
+
+void *page_collection_lock_arm(void * /*engine*/, std::uint64_t /*start*/, std::uint64_t /*end*/)
+{
+    return nullptr;
+}
+
+void page_collection_unlock_arm(void * /*pages*/) {}
+
+void tb_invalidate_phys_page_fast_arm(void * /*engine*/, void * /*pages*/, std::uint64_t /*start*/,
+                                      int /*octets*/, std::uintptr_t /*from*/)
+{
+}
+}
+
 namespace iss {
 namespace {
 
@@ -68,7 +89,7 @@ Core::~Core()
 
 void Core::add_memory(std::uint32_t base, std::uint32_t octets, bool writable)
 {
-    need(uc_mem_map(uc_, base, octets, writable ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC));
+    need(uc_mem_map(uc_, base, octets, UC_PROT_READ | (writable ? UC_PROT_WRITE : UC_PROT_EXEC)));
 }
 
 void Core::add_device(std::uint32_t base, std::uint32_t octets, Device &device)
@@ -80,28 +101,41 @@ void Core::add_device(std::uint32_t base, std::uint32_t octets, Device &device)
 
 void Core::add_guarded_memory(std::uint32_t base, std::uint32_t octets, MemoryGuard &guard)
 {
-    add_memory(base, octets, true);
+    add_memory(base, octets, false);
     uc_hook hook = 0;
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above
-    need(uc_hook_add(uc_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void *>(&on_guarded), &guard,
-                     base, base + octets - 1U));
+    need(uc_hook_add(uc_, &hook, UC_HOOK_MEM_WRITE_PROT, reinterpret_cast<void *>(&on_guarded),
+                     &guard, base, base + octets - 1U));
 }
 
-void Core::on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+bool Core::on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                       std::int64_t value, void *guard)
 {
-    (void)uc;
     (void)type;
     static_cast<MemoryGuard *>(guard)->before_write(static_cast<std::uint32_t>(address),
                                                     static_cast<unsigned>(octets),
                                                     static_cast<std::uint32_t>(value));
+    need(uc_mem_write(uc, address, &value, static_cast<std::size_t>(octets)));
+    return true; // the library itself writes nothing
 }
 
 void Core::load(const ElfImage &image)
 {
     for (const ElfSegment &s : image.segments) {
-        need(uc_mem_write(uc_, s.address, s.octets.data(), s.octets.size()));
+        set_octets(s.address, s.octets);
     }
+}
+
+void Core::set_octets(std::uint32_t address, const std::vector<std::uint8_t> &octets)
+{
+    need(uc_mem_write(uc_, address, octets.data(), octets.size()));
+}
+
+std::vector<std::uint8_t> Core::octets(std::uint32_t address, std::size_t count) const
+{
+    std::vector<std::uint8_t> octets(count);
+    need(uc_mem_read(uc_, address, octets.data(), count));
+    return octets;
 }
 
 void Core::reset(std::uint32_t vectors)

@@ -74,8 +74,10 @@ public:
     {
         return exceptions_;
     }
-    std::uint32_t word(std::uint32_t address) const;
-    void          set_word(std::uint32_t address, std::uint32_t value);
+    std::uint32_t             word(std::uint32_t address) const;
+    void                      set_word(std::uint32_t address, std::uint32_t value);
+    std::vector<std::uint8_t> octets(std::uint32_t address, std::size_t count) const;
+    void          set_octets(std::uint32_t address, const std::vector<std::uint8_t> &octets);
     std::uint32_t program_counter() const;
 
     /// Lines that each tell what no program should do, and this one did.
@@ -100,7 +102,7 @@ private:
     static void on_interrupt(uc_engine *uc, std::uint32_t number, void *core);
     static bool on_invalid(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *core);
-    static void on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+    static bool on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *guard);
     static std::uint64_t on_read(uc_engine *uc, std::uint64_t offset, unsigned octets,
                                  void *mapped);

@@ -80,9 +80,7 @@ Chip::Chip(const ElfImage &image, Circuit &circuit) : circuit_(circuit)
     core_.add_guarded_memory(flash_base, flash_octets, flash_);
     core_.add_memory(ram_base, ram_octets, true);
     connect();
-    for (std::uint32_t at = 0; at < flash_octets; at += 4) {
-        core_.set_word(flash_base + at, 0xFFFFFFFFU);
-    }
+    core_.set_octets(flash_base, std::vector<std::uint8_t>(flash_octets, 0xFFU));
     core_.load(image);
     reset_devices();
     core_.reset(flash_base);

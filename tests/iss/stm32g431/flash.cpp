@@ -66,9 +66,7 @@ void Flash::before_write(std::uint32_t address, unsigned octets, std::uint32_t v
 
 void Flash::erase(std::uint32_t number)
 {
-    for (std::uint32_t at_octet = 0; at_octet < page; at_octet += 4) {
-        core().set_word(flash_base + number * page + at_octet, 0xFFFFFFFFU);
-    }
+    core().set_octets(flash_base + number * page, std::vector<std::uint8_t>(page, 0xFFU));
     core().wait(erase_time);
 }
 
