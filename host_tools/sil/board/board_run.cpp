@@ -40,9 +40,9 @@ std::unique_ptr<BoardRun> make_run(const BoardScenario &b, BoardKind kind, long 
     return std::make_unique<F28335Run>(b.scenario, start_tick, b.dead_time_s);
 }
 
-bool running()
+bool running(const BoardRun &run)
 {
-    return app_drive()->state == DRIVE_RUN;
+    return run.drive().state == DRIVE_RUN;
 }
 
 /// From power-up to the first tick in RUN; its number.
@@ -52,7 +52,7 @@ long bring_to_run(BoardRun &run, int speed_tenths)
     const long   speed_tick    = ticks_in(speed_s, period_s);
     const long   run_tick      = ticks_in(run_s, period_s);
     const long   command_ticks = ticks_in(command_s, period_s);
-    while (!running()) {
+    while (!running(run)) {
         const long tick = run.bench().tick();
         if (tick == speed_tick) {
             run.set_speed(speed_tenths);
@@ -61,7 +61,7 @@ long bring_to_run(BoardRun &run, int speed_tenths)
         }
         const bool alive = run.step();
         if (!alive || tick > run_tick + command_ticks) {
-            const app_status_t s   = app_status_read();
+            const app_status_t s   = run.status();
             std::string        why = fmt::format(
                        "--board: the drive does not come to RUN: mode {}, {}, drive: {}, board faults {}",
                        static_cast<int>(s.mode), fault_name(app_fault_base + static_cast<int>(s.fault)),
@@ -139,9 +139,9 @@ void inject_faults(const Scenario &s, double time_s, double period_s, BoardRun &
     }
 }
 
-int present_fault()
+int present_fault(const BoardRun &run)
 {
-    const app_status_t s = app_status_read();
+    const app_status_t s = run.status();
     return s.fault == APP_FAULT_NONE    ? 0
            : s.fault == APP_FAULT_DRIVE ? static_cast<int>(s.drive_fault)
                                         : app_fault_base + static_cast<int>(s.fault);
@@ -157,6 +157,18 @@ BoardResult simulate_on_board(const Scenario &s, BoardKind kind)
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
                               const Controller &controller)
 {
+    return simulate_on_board(
+        scenario,
+        [&](const BoardScenario &b, long start_tick) {
+            set_firmware(controller.config, b.scenario.drive);
+            return make_run(b, kind, start_tick);
+        },
+        controller);
+}
+
+BoardResult simulate_on_board(const Scenario &scenario, const PowerUp &power_up,
+                              const Controller &controller)
+{
     const BoardScenario b = for_board(scenario);
     const Scenario     &s = b.scenario;
 
@@ -164,11 +176,10 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
     const int   first_tenths = tenths_of(reference.at(0.0));
     BoardResult out;
     out.notes = b.notes;
-    set_firmware(controller.config, s.drive);
     const long start_tick =
-        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths); // rehearsal
+        bring_to_run(*power_up(b, MotorBench::never), first_tenths); // rehearsal
 
-    const std::unique_ptr<BoardRun> run   = make_run(b, kind, start_tick);
+    const std::unique_ptr<BoardRun> run   = power_up(b, start_tick);
     const MotorBench               &bench = run->bench();
     if (bring_to_run(*run, first_tenths) != start_tick) {
         throw InputError("--board: the start of the firmware does not repeat itself");
@@ -181,8 +192,8 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
         // The board stands at the tick: the application has answered its samples.
         TickEnd end;
         end.row = row_of(time_s, omega_ref, bench.plant_state());
-        add_drive(end.row, *app_drive());
-        end.fault            = present_fault();
+        add_drive(end.row, run->drive());
+        end.fault            = present_fault(*run);
         const RawSample &raw = bench.sample();
         out.ticks.push_back(
                            {{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt(), bench.bridge_on()});
@@ -194,7 +205,7 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
             end.ended == runaway_fault ? instant_A(end.row) : bench.peak_current_A();
         return end;
     });
-    const app_status_t status = app_status_read();
+    const app_status_t status = run->status();
     out.zero_a_cnt            = static_cast<double>(status.zero_a_cnt);
     out.zero_b_cnt            = static_cast<double>(status.zero_b_cnt);
     out.findings              = run->findings();

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,11 @@
 namespace sdre {
 
 enum class BoardKind { api, f28335 };
+
+class BoardRun;
+struct BoardScenario;
+/// Powers a board up. @param start_tick As of MotorBench.
+using PowerUp = std::function<std::unique_ptr<BoardRun>(const BoardScenario &, long start_tick)>;
 
 /// Values at the board's interface at one tick, for comparisons.
 struct BoardTick {
@@ -41,6 +48,9 @@ struct BoardResult {
 /// InputError when the scenario is none for this board, or when the firmware does not come to RUN.
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind);
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
+                              const Controller &controller);
+/// On a board that has its constants already; `controller` only tells the result where they come from.
+BoardResult simulate_on_board(const Scenario &scenario, const PowerUp &power_up,
                               const Controller &controller);
 
 } // namespace sdre

@@ -56,6 +56,16 @@ void set_firmware(const drive_config_t &config, const Drive &drive)
     sil_board_identity = board_identity_of(drive);
 }
 
+app_status_t BoardRun::status() const
+{
+    return app_status_read();
+}
+
+const drive_t &BoardRun::drive() const
+{
+    return *app_drive();
+}
+
 ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
     : BoardRun(s, start_tick),
       fake_(bench_, dead_time_s, s.drive.board.dc_link_range_V, processor_of(s.drive).counter_Hz),
@@ -122,7 +132,7 @@ std::array<int, 3> ApiRun::duty_cnt() const
 }
 
 F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
-    : BoardRun(s, start_tick),
+    : ModbusRun(s, start_tick),
       surroundings_(bench_, dead_time_s <= 0.0, s.drive.board.dc_link_range_V,
                     sil_board_config.board.duty_full_cnt),
       device_(surroundings_, f28335::whole_firmware(), {{}, dead_time_s}),
@@ -148,30 +158,30 @@ bool F28335Run::step()
     return !device_.stopped();
 }
 
-void F28335Run::set_speed(int tenths)
+void ModbusRun::set_speed(int tenths)
 {
     tenths_ = tenths;
     command();
 }
 
 /// All of it each time: a command takes as long as any other.
-void F28335Run::command()
+void ModbusRun::command()
 {
     const auto speed = static_cast<std::uint32_t>(tenths_);
-    master_.write(
+    master().write(
         APP_REGISTERS_CONTROLWORD,
         {static_cast<std::uint16_t>(run_ ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN),
          APP_CONTROL_PROFILE_VELOCITY, static_cast<std::uint16_t>(speed >> 16U),
          static_cast<std::uint16_t>(speed & 0xFFFFU)});
 }
 
-void F28335Run::set_run()
+void ModbusRun::set_run()
 {
     run_ = true;
     command();
 }
 
-bool F28335Run::commission(std::uint16_t current, std::uint16_t speed)
+bool ModbusRun::commission(std::uint16_t current, std::uint16_t speed)
 {
     const std::array<std::array<std::uint16_t, 2>, 5> writes{
         {{APP_REGISTERS_COMMISSION_CURRENT, current},
@@ -181,15 +191,10 @@ bool F28335Run::commission(std::uint16_t current, std::uint16_t speed)
          {APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN},
          {APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION}}};
     if (commission_writes_ < writes.size() && can_command()) {
-        master_.write(writes[commission_writes_][0], writes[commission_writes_][1]);
+        master().write(writes[commission_writes_][0], writes[commission_writes_][1]);
         commission_writes_++;
     }
     return commission_writes_ == writes.size();
-}
-
-bool F28335Run::can_command() const
-{
-    return !master_.busy();
 }
 
 void F28335Run::inject(FaultKind kind)
@@ -203,9 +208,9 @@ void F28335Run::inject(FaultKind kind)
     }
 }
 
-void F28335Run::chat()
+void ModbusRun::chat()
 {
-    master_.read_input(APP_REGISTERS_LIVE_FIRST, polled_registers);
+    master().read_input(APP_REGISTERS_LIVE_FIRST, polled_registers);
 }
 
 std::array<int, 3> F28335Run::duty_cnt() const

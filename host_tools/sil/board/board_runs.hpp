@@ -12,6 +12,10 @@
 #include "sil/f28335/modbus_master.hpp"
 #include "sil/run/motor_bench.hpp"
 
+extern "C" {
+#include "app_status.h"
+}
+
 namespace sdre {
 
 /// A running application; constructed, it has booted up to its first tick.
@@ -46,7 +50,10 @@ public:
     {
         return 0;
     }
-    MotorBench &bench()
+    /// After a tick. The application and the drive are this process's, unless a board has its own.
+    virtual app_status_t   status() const;
+    virtual const drive_t &drive() const;
+    MotorBench            &bench()
     {
         return bench_;
     }
@@ -82,50 +89,74 @@ private:
     f28335::FakeBoardChoice choice_;
 };
 
-class F28335Run : public BoardRun {
+/// An application that takes its commands over its serial line.
+class ModbusRun : public BoardRun {
 public:
-    F28335Run(const Scenario &scenario, long start_tick, double dead_time_s);
-    bool                     step() override;
-    void                     set_speed(int tenths) override;
-    void                     set_run() override;
-    bool                     commission(std::uint16_t current, std::uint16_t speed) override;
-    bool                     can_command() const override;
-    void                     inject(FaultKind kind) override;
-    void                     chat() override;
-    std::array<int, 3>       duty_cnt() const override;
-    std::vector<std::string> findings() const override;
-    int                      answers() const override
+    void set_speed(int tenths) override;
+    void set_run() override;
+    bool commission(std::uint16_t current, std::uint16_t speed) override;
+    bool can_command() const override
     {
-        return master_.answers();
+        return !master().busy();
+    }
+    void chat() override;
+    int  answers() const override
+    {
+        return master().answers();
     }
     int errors() const override
     {
-        return master_.errors();
+        return master().errors();
     }
     /// Any holding register; can_command() says when.
     void write(std::uint16_t address, std::uint16_t value)
     {
-        master_.write(address, value);
+        master().write(address, value);
     }
     void write(std::uint16_t first, const std::vector<std::uint16_t> &values)
     {
-        master_.write(first, values);
+        master().write(first, values);
     }
     /// The answer to chat(): the first input registers; empty until it is there.
     const std::vector<std::uint16_t> &registers() const
     {
-        return master_.values();
+        return master().values();
     }
 
-private:
-    void command();
+protected:
+    using BoardRun::BoardRun;
 
-    int                       tenths_ = 0;
-    bool                      run_    = false;
+private:
+    virtual f28335::ModbusMaster       &master()       = 0;
+    virtual const f28335::ModbusMaster &master() const = 0;
+    void                                command();
+
+    int         tenths_            = 0;
+    bool        run_               = false;
+    std::size_t commission_writes_ = 0;
+};
+
+class F28335Run : public ModbusRun {
+public:
+    F28335Run(const Scenario &scenario, long start_tick, double dead_time_s);
+    bool                     step() override;
+    void                     inject(FaultKind kind) override;
+    std::array<int, 3>       duty_cnt() const override;
+    std::vector<std::string> findings() const override;
+
+private:
+    f28335::ModbusMaster &master() override
+    {
+        return master_;
+    }
+    const f28335::ModbusMaster &master() const override
+    {
+        return master_;
+    }
+
     f28335::MotorSurroundings surroundings_;
     f28335::Device            device_;
     f28335::ModbusMaster      master_;
-    std::size_t               commission_writes_ = 0;
 };
 
 /// InputError when the drive's board has another processor.

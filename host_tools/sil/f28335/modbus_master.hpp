@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sil/f28335/sci_unit.hpp"
+#include "sil/f28335/octet_line.hpp"
 
 namespace sdre::f28335 {
 
@@ -15,7 +15,7 @@ std::uint16_t modbus_crc(const std::vector<std::uint8_t> &octets);
 
 class ModbusMaster {
 public:
-    ModbusMaster(SciUnit &line, std::uint8_t server) : line_(line), server_(server) {}
+    ModbusMaster(OctetLine &line, std::uint8_t server) : line_(line), server_(server) {}
 
     /// Function 6. One request at a time: see busy().
     void write(std::uint16_t address, std::uint16_t value);
@@ -53,7 +53,7 @@ private:
     }
     void take_answer();
 
-    SciUnit                   &line_;
+    OctetLine                 &line_;
     std::uint8_t               server_;
     std::size_t                expected_ = 0; ///< octets of the answer; 0: no request is open
     std::vector<std::uint8_t>  request_;

@@ -8,6 +8,7 @@
 
 #include "sil/f28335/clock.hpp"
 #include "sil/f28335/findings.hpp"
+#include "sil/f28335/octet_line.hpp"
 
 namespace sdre::f28335 {
 
@@ -27,7 +28,7 @@ struct Direction {
     std::int64_t longest_gap = 0;  ///< between two octets of an answer
 };
 
-class SciUnit {
+class SciUnit : public OctetLine {
 public:
     void sync(Findings &findings, double time_s);
     /// The firmware is about to read SCIRXBUF, or to write SCITXBUF.
@@ -38,8 +39,7 @@ public:
     void         pass(std::int64_t now_ticks, const Clock &clock);
     std::int64_t ticks_to_event(std::int64_t now_ticks) const; ///< -1: the line is quiet
 
-    /// The other end of the line: octets for the firmware, sent one after the other from now on.
-    void send(std::uint16_t octet)
+    void send(std::uint16_t octet) override
     {
         coming_.push_back(octet);
     }
@@ -59,8 +59,7 @@ public:
     {
         error_ = true;
     }
-    /// An octet that the firmware has sent; -1: none.
-    int          take();
+    int          take() override;
     std::int64_t octet_ticks(const Clock &clock) const;
 
 private:
