@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/board/board_constants.hpp"
 #include "sil/board/board_runs.hpp"
 #include "sil/board/board_scenario.hpp"
 
 extern "C" {
 #include "app.h"
-
-extern app_config_t sil_board_config;
 }
 
 namespace sdre {
@@ -186,7 +185,7 @@ BoardResult simulate_on_board(const Scenario &scenario, const PowerUp &power_up,
     }
     // The first command waits until the gates' supplies are charged, those of a running drive do not.
     const long latency_ticks = start_tick - ticks_in(run_s, control_period_s(s.drive)) -
-                               sil_board_config.gate.precharge_ticks;
+                               board_constants(s.drive).config.gate.precharge_ticks;
     Commands commands(s, ticks_of(s), latency_ticks);
     out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {
         // The board stands at the tick: the application has answered its samples.
