@@ -51,13 +51,6 @@ constexpr std::uint32_t call_number = 2; // SVC
 
 constexpr std::array<int, 4> scratch{UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3};
 
-std::string hex(std::uint32_t value)
-{
-    std::array<char, 12> text{};
-    std::snprintf(text.data(), text.size(), "%08Xh", value);
-    return text.data();
-}
-
 void need(uc_err error)
 {
     if (error != UC_ERR_OK) {
@@ -66,6 +59,13 @@ void need(uc_err error)
 }
 
 } // namespace
+
+std::string hex(std::uint32_t value)
+{
+    std::array<char, 12> text{};
+    std::snprintf(text.data(), text.size(), "%08Xh", value);
+    return text.data();
+}
 
 Core::Core() : known_(blocks_known)
 {
@@ -131,11 +131,9 @@ void Core::set_octets(std::uint32_t address, const std::vector<std::uint8_t> &oc
     need(uc_mem_write(uc_, address, octets.data(), octets.size()));
 }
 
-std::vector<std::uint8_t> Core::octets(std::uint32_t address, std::size_t count) const
+void Core::read_octets(std::uint32_t address, void *to, std::size_t count) const
 {
-    std::vector<std::uint8_t> octets(count);
-    need(uc_mem_read(uc_, address, octets.data(), count));
-    return octets;
+    need(uc_mem_read(uc_, address, to, count));
 }
 
 void Core::reset(std::uint32_t vectors)
@@ -174,6 +172,18 @@ std::uint32_t Core::word(std::uint32_t address) const
 void Core::set_word(std::uint32_t address, std::uint32_t value)
 {
     need(uc_mem_write(uc_, address, &value, sizeof value));
+}
+
+void Core::mask_interrupts()
+{
+    put(UC_ARM_REG_PRIMASK, 1);
+}
+
+void Core::hang_at(std::uint32_t address)
+{
+    set_octets(address & ~thumb, {0xFE, 0xE7});
+    need(uc_ctl_flush_tlb(uc_)); // of translated code
+    known_.assign(blocks_known, Known{});
 }
 
 std::uint32_t Core::program_counter() const
@@ -266,7 +276,13 @@ void Core::begin_block(std::uint32_t address, std::uint32_t octets)
     }
     const BlockCost &c = cost(address, octets);
     cycles_ += c.cycles;
+    cycles_ -= address == after_ ? not_taken_ : 0U;
+    after_     = address + octets;
+    not_taken_ = c.not_taken;
     instructions_ += c.instructions;
+    if (watch_blocks_) {
+        watch_->block(address, octets, c);
+    }
     if (c.uses_fpu && !exceptions_.fpu_enabled()) {
         why_ = "an instruction of the FPU, which CPACR has not enabled, in the block at " +
                hex(address);
@@ -399,6 +415,9 @@ void Core::enter(int exception)
         push(get(scratch.at(static_cast<std::size_t>(n))));
     }
     exceptions_.enter(exception);
+    if (watch_ != nullptr) {
+        watch_->begins(exception, cycles_);
+    }
     put(UC_ARM_REG_LR, 0xFFFFFFE1U | (fpu ? 0U : no_fpu_frame) | (handler ? 0U : to_thread));
     put(UC_ARM_REG_CONTROL, control & ~fpu_in_use);
     put(UC_ARM_REG_XPSR, state_thumb | static_cast<std::uint32_t>(exception));
@@ -440,6 +459,9 @@ void Core::leave()
     put(UC_ARM_REG_XPSR, old & ~state_aligned);
     put(UC_ARM_REG_PC, counter & ~thumb);
     cycles_ += exit_cycles;
+    if (watch_ != nullptr) {
+        watch_->ends(static_cast<int>(state & state_number), cycles_);
+    }
 }
 
 } // namespace iss

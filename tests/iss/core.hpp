@@ -18,6 +18,8 @@
 
 namespace iss {
 
+std::string hex(std::uint32_t value);
+
 class MemoryGuard {
 public:
     MemoryGuard()                               = default;
@@ -25,6 +27,24 @@ public:
     MemoryGuard &operator=(const MemoryGuard &) = delete;
     virtual ~MemoryGuard()                      = default;
     virtual void before_write(std::uint32_t address, unsigned octets, std::uint32_t value) = 0;
+};
+
+/// Told when a handler begins and ends: the way to it and back is a part of it.
+class HandlerWatch {
+public:
+    HandlerWatch()                                          = default;
+    HandlerWatch(const HandlerWatch &)                      = delete;
+    HandlerWatch &operator=(const HandlerWatch &)           = delete;
+    virtual ~HandlerWatch()                                 = default;
+    virtual void begins(int exception, std::uint64_t cycle) = 0;
+    virtual void ends(int exception, std::uint64_t cycle)   = 0;
+    /// A block begins; only while watch_blocks() is on.
+    virtual void block(std::uint32_t address, std::uint32_t octets, const BlockCost &cost)
+    {
+        (void)address;
+        (void)octets;
+        (void)cost;
+    }
 };
 
 class Core {
@@ -74,9 +94,21 @@ public:
     {
         return exceptions_;
     }
-    std::uint32_t             word(std::uint32_t address) const;
-    void                      set_word(std::uint32_t address, std::uint32_t value);
-    std::vector<std::uint8_t> octets(std::uint32_t address, std::size_t count) const;
+    void watch_handlers(HandlerWatch *watch) ///< nullptr: nobody
+    {
+        watch_ = watch;
+    }
+    void watch_blocks(bool on)
+    {
+        watch_blocks_ = on;
+    }
+    /// As if the program had masked them now.
+    void mask_interrupts();
+    /// The instruction there becomes a branch to itself.
+    void          hang_at(std::uint32_t address);
+    std::uint32_t word(std::uint32_t address) const;
+    void          read_octets(std::uint32_t address, void *to, std::size_t count) const;
+    void          set_word(std::uint32_t address, std::uint32_t value);
     void          set_octets(std::uint32_t address, const std::vector<std::uint8_t> &octets);
     std::uint32_t program_counter() const;
 
@@ -133,12 +165,16 @@ private:
     std::uint64_t                        idle_cycles_  = 0;
     std::uint64_t                        instructions_ = 0;
     std::uint64_t                        until_        = 0;
-    End                                  end_          = End::asked;
-    bool                                 stop_         = false;
-    bool                                 sleeps_       = false;
-    bool                                 halted_       = false;
-    std::string                          why_;
-    std::vector<std::string>             findings_;
+    HandlerWatch                        *watch_        = nullptr;
+    bool                                 watch_blocks_ = false;
+    std::uint32_t                        after_        = 0; // what follows the last block in memory
+    std::uint32_t            not_taken_ = 0; // its cost is less by this, if that comes next
+    End                      end_       = End::asked;
+    bool                     stop_      = false;
+    bool                     sleeps_    = false;
+    bool                     halted_    = false;
+    std::string              why_;
+    std::vector<std::string> findings_;
 };
 
 } // namespace iss

@@ -57,7 +57,11 @@ void read_symbols(const Reader &r, const Elf32_Ehdr &head, ElfImage &image)
         for (std::size_t at = 0; at < table.sh_size; at += sizeof(Elf32_Sym)) {
             const auto symbol = r.at<Elf32_Sym>(table.sh_offset + at);
             if (symbol.st_name != 0) {
-                image.symbols.emplace(r.text(names.sh_offset + symbol.st_name), symbol.st_value);
+                const std::string name = r.text(names.sh_offset + symbol.st_name);
+                image.symbols.emplace(name, symbol.st_value);
+                if (symbol.st_size != 0) {
+                    image.sizes.emplace(name, symbol.st_size);
+                }
             }
         }
     }

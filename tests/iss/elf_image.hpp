@@ -18,6 +18,7 @@ struct ElfSegment {
 struct ElfImage {
     std::vector<ElfSegment>              segments;
     std::map<std::string, std::uint32_t> symbols;
+    std::map<std::string, std::uint32_t> sizes; ///< of the symbols that have one, in octets
 };
 
 /// std::runtime_error in one line when it is none.

@@ -12,6 +12,7 @@
 
 namespace iss {
 
+constexpr int exception_nmi        = 2;
 constexpr int exception_hard_fault = 3;
 constexpr int exception_sv_call    = 11;
 constexpr int first_interrupt      = 16;

@@ -251,6 +251,43 @@ TEST(IssCycles, AreThoseOfTheTable)
     EXPECT_EQ(cycles({0x93, 0xED, 0x00, 0x0A}), 2U);  // vldr s0, [r3]
     EXPECT_EQ(cycles({0x2D, 0xED, 0x04, 0x8A}), 5U);  // vpush {s16-s19}
     EXPECT_EQ(cycles({0x00, 0xBF, 0x1A, 0x68, 0xFE, 0xE7}), 6U);
+    EXPECT_EQ(cycles({0x1A, 0x60}), 1U);             // str r2, [r3]
+    EXPECT_EQ(cycles({0x1A, 0x51}), 2U);             // str r2, [r3, r4]
+    EXPECT_EQ(cycles({0x43, 0xF8, 0x04, 0x2C}), 1U); // str r2, [r3, #-4]
+    EXPECT_EQ(cycles({0x43, 0xF8, 0x04, 0x20}), 2U); // str.w r2, [r3, r4]
+    EXPECT_EQ(cycles({0x1A, 0x68, 0x21, 0x68}), 3U); // ldr r2, [r3]; ldr r1, [r4]
+    EXPECT_EQ(cycles({0x1A, 0x68, 0x11, 0x68}), 4U); // ldr r2, [r3]; ldr r1, [r2]
+    EXPECT_EQ(cycles({0x1A, 0x68, 0xA1, 0x58}), 4U); // ldr r2, [r3]; ldr r1, [r4, r2]
+    EXPECT_EQ(cycles({0x1A, 0x68, 0x22, 0x60}), 3U); // ldr r2, [r3]; str r2, [r4]
+    EXPECT_EQ(cycles({0x1A, 0x68, 0xFA, 0x50}), 3U); // ldr r2, [r3]; str r2, [r7, r3]
+}
+
+TEST(IssCycles, ABranchThatIsNotTakenHidesItsRefill)
+{
+    const auto less = [](const std::vector<std::uint8_t> &code) {
+        return cost_of(code.data(), code.size()).not_taken;
+    };
+    EXPECT_EQ(less({0x00, 0xD0}), 2U);             // beq
+    EXPECT_EQ(less({0x08, 0xB1}), 2U);             // cbz r0
+    EXPECT_EQ(less({0x00, 0xF0, 0x02, 0x80}), 2U); // beq.w
+    EXPECT_EQ(less({0xFE, 0xE7}), 0U);             // b
+    EXPECT_EQ(less({0x00, 0xF0, 0x02, 0xF8}), 0U); // bl
+    EXPECT_EQ(less({0x00, 0xF0, 0x02, 0xB8}), 0U); // b.w
+    EXPECT_EQ(less({0xBF, 0xF3, 0x4F, 0x8F}), 0U); // dsb
+    EXPECT_EQ(less({0x00, 0xDF}), 0U);             // svc
+}
+
+TEST(IssCycles, LoadsOfLiteralsAreCounted)
+{
+    const auto literals = [](const std::vector<std::uint8_t> &code) {
+        return cost_of(code.data(), code.size()).literals;
+    };
+    EXPECT_EQ(literals({0x01, 0x48}), 1U);             // ldr r0, [pc, #4]
+    EXPECT_EQ(literals({0xDF, 0xF8, 0x04, 0x00}), 1U); // ldr.w r0, [pc, #4]
+    EXPECT_EQ(literals({0x5F, 0xF8, 0x04, 0x00}), 1U); // ldr.w r0, [pc, #-4]
+    EXPECT_EQ(literals({0x9F, 0xED, 0x01, 0x0A}), 1U); // vldr s0, [pc, #4]
+    EXPECT_EQ(literals({0x1A, 0x68}), 0U);             // ldr r2, [r3]
+    EXPECT_EQ(literals({0x93, 0xED, 0x00, 0x0A}), 0U); // vldr s0, [r3]
 }
 
 TEST(IssElf, WhatIsNoProgramIsSaidSo)

@@ -174,16 +174,19 @@ void Chip::update_lines()
 /// The trigger at the counter's top.
 void Chip::begin_period()
 {
-    period_began_ = core_.cycles();
+    period_began_ = timer_.last_end();
     circuit_.period_begins(
         {timer_.on_cnt(), timer_.full_cnt(), 1.0 / core_Hz, timer_.dead_time_s()});
     const Shaft shaft = circuit_.shaft();
     for (const Edge &edge : shaft.edges) {
-        edges_.capture(core_.cycles() - static_cast<std::uint64_t>(edge.age_s * core_Hz));
+        edges_.capture(period_began_ - static_cast<std::uint64_t>(edge.age_s * core_Hz));
     }
     encoder_.latch(shaft);
-    adc1_.start(circuit_);
-    adc2_.start(circuit_);
+    if (!trigger_lost_) {
+        adc1_.start(circuit_, period_began_);
+        adc2_.start(circuit_, period_began_);
+    }
+    update_comparators();
 }
 
 void Chip::serve_events()
@@ -208,14 +211,18 @@ void Chip::serve_events()
 
 void Chip::run_for(double time_s)
 {
-    const std::uint64_t end = core_.cycles() + static_cast<std::uint64_t>(time_s * core_Hz);
+    run_to(core_.cycles() + static_cast<std::uint64_t>(time_s * core_Hz));
+}
+
+void Chip::run_to(std::uint64_t end)
+{
     while (core_.cycles() < end) {
         core_.run_until(std::min(end, next_event()));
         update_gates();
         if (core_.exceptions().wants_reset()) {
             restart(by_program);
         } else if (watchdog_.is_out()) {
-            core_.find("the watchdog resets");
+            core_.find("the watchdog resets, at " + hex(core_.program_counter()));
             restart(by_watchdog);
         } else {
             serve_events();
@@ -224,8 +231,28 @@ void Chip::run_for(double time_s)
     }
 }
 
+void Chip::stop_crystal()
+{
+    if (rcc_.stop_crystal()) {
+        core_.exceptions().pend(exception_nmi);
+        timer_.trip();
+        update_gates();
+    }
+}
+
 void Chip::set_over_current(bool active)
 {
+    over_current_ = active;
+    update_comparators();
+}
+
+void Chip::update_comparators()
+{
+    const bool active = over_current_ || circuit_.over_current();
+    if (active == break_) {
+        return;
+    }
+    break_ = active;
     for (std::uint32_t n = 0; n < 4; n++) {
         std::uint32_t &csr = analog_.at(comparators + 4U * n);
         csr                = active ? csr | sees : csr & ~sees;

@@ -23,9 +23,14 @@ public:
     Chip(const ElfImage &image, Circuit &circuit);
 
     void   run_for(double time_s);
+    void   run_to(std::uint64_t cycle);
     double time_s() const
     {
         return static_cast<double>(core_.cycles()) / core_Hz;
+    }
+    std::uint64_t period_began() const ///< cycle of the last top
+    {
+        return period_began_;
     }
     int resets() const
     {
@@ -41,9 +46,21 @@ public:
     {
         rcc_.break_crystal();
     }
+    /// The crystal stops; cycles stay what they are.
+    void stop_crystal();
+    /// No conversion begins from now on.
+    void lose_trigger()
+    {
+        trigger_lost_ = true;
+    }
     bool gates_enabled() const
     {
         return timer_.enabled();
+    }
+    /// Compare values for the coming period, as the program has written them.
+    std::array<int, 3> written_cnt() const
+    {
+        return timer_.written_cnt();
     }
     bool light() const
     {
@@ -54,6 +71,10 @@ public:
         return serial_;
     }
     Core &core()
+    {
+        return core_;
+    }
+    const Core &core() const
     {
         return core_;
     }
@@ -100,6 +121,7 @@ private:
     void          begin_period();
     void          update_gates();
     void          update_lines();
+    void          update_comparators();
 
     Core          core_;
     Circuit      &circuit_;
@@ -126,6 +148,9 @@ private:
     Bus           ports_{core_, 0x48000000};
     Bus           fast_{core_, 0x50000000};
     bool          gates_        = false;
+    bool          trigger_lost_ = false;
+    bool          over_current_ = false; // from outside
+    bool          break_        = false;
     std::uint64_t period_began_ = 0;
     int           resets_       = 0;
 };

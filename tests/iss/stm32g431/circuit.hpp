@@ -42,6 +42,11 @@ public:
     virtual Shaft shaft()                                          = 0;
     /// 12-bit code at an input of a converter, 1 or 2.
     virtual int code(int converter, int input) = 0;
+    /// The comparator at some shunt sees too much current.
+    virtual bool over_current()
+    {
+        return false;
+    }
 };
 
 } // namespace iss::stm32g431

@@ -36,7 +36,7 @@ void Converter::reset()
     due_ = UINT64_MAX;
 }
 
-void Converter::start(Circuit &circuit)
+void Converter::start(Circuit &circuit, std::uint64_t cycle)
 {
     const std::uint32_t trigger = (at(jsqr) >> 2U) & 0x7FU; // JEXTSEL 0, rising
     if ((at(cr) & armed) == 0U || trigger != 0x20U) {
@@ -53,7 +53,7 @@ void Converter::start(Circuit &circuit)
         clocks += sampling.at(time) + conversion;
         results_.at(n) = static_cast<std::uint32_t>(circuit.code(number_, static_cast<int>(input)));
     }
-    due_ = core().cycles() + static_cast<std::uint64_t>(clocks * cycles_per_clock);
+    due_ = cycle + static_cast<std::uint64_t>(clocks * cycles_per_clock);
 }
 
 void Converter::end()

@@ -14,8 +14,8 @@ public:
     Converter(Core &core, int number);
     void reset() override;
 
-    /// The trigger of TIM1: holds and converts.
-    void          start(Circuit &circuit);
+    /// The trigger of TIM1 in this cycle: holds and converts.
+    void          start(Circuit &circuit, std::uint64_t cycle);
     std::uint64_t due() const
     {
         return due_;

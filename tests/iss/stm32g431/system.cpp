@@ -7,7 +7,11 @@ namespace {
 // RCC
 constexpr std::uint32_t cr      = 0x00;
 constexpr std::uint32_t cfgr    = 0x08;
+constexpr std::uint32_t cifr    = 0x1C;
+constexpr std::uint32_t cicr    = 0x20;
 constexpr std::uint32_t csr     = 0x94;
+constexpr std::uint32_t watch   = 1U << 19U;
+constexpr std::uint32_t failed  = 1U << 8U; // in CIFR and CICR
 constexpr std::uint32_t hse_on  = 1U << 16U;
 constexpr std::uint32_t hse_rdy = 1U << 17U;
 constexpr std::uint32_t pll_on  = 1U << 24U;
@@ -79,6 +83,14 @@ void Rcc::break_crystal()
     broken_ = true;
 }
 
+bool Rcc::stop_crystal()
+{
+    const bool watched = (at(cr) & watch) != 0U;
+    at(cr) &= ~(hse_rdy | pll_rdy);
+    at(cifr) |= watched ? failed : 0U;
+    return watched;
+}
+
 bool Rcc::is_on(ClockGate gate) const
 {
     return ((at(gate.offset) >> gate.bit) & 1U) != 0U;
@@ -96,6 +108,8 @@ void Rcc::on_write(std::uint32_t offset, std::uint32_t value)
             find("CFGR chooses a PLL that does not run");
         }
         at(cfgr) = (value & ~0xCU) | (ready ? (value & 3U) << 2U : 0U);
+    } else if (offset == cicr) {
+        at(cifr) &= ~value;
     } else if (offset == csr) {
         causes_ = (value & forget) != 0U ? 0U : causes_;
         at(csr) = causes_;

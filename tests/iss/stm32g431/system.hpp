@@ -12,6 +12,8 @@ public:
     bool is_on(ClockGate gate) const;
     /// The crystal never starts.
     void break_crystal();
+    /// The crystal stops. True if the clock watch is on, which tells.
+    bool stop_crystal();
     void reset() override;
     void note_reset(std::uint32_t cause); ///< bit of CSR
 

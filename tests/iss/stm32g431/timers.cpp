@@ -72,11 +72,15 @@ std::uint64_t PwmTimer::next_end() const
                               : UINT64_MAX;
 }
 
+std::array<int, 3> PwmTimer::written_cnt() const
+{
+    return {static_cast<int>(at(ccr1)), static_cast<int>(at(ccr1 + 4U)),
+            static_cast<int>(at(ccr1 + 8U))};
+}
+
 void PwmTimer::update()
 {
-    for (std::uint32_t n = 0; n < 3; n++) {
-        active_.at(n) = static_cast<int>(at(ccr1 + 4U * n));
-    }
+    active_      = written_cnt();
     full_        = static_cast<int>(at(arr));
     repetitions_ = at(rcr);
 }

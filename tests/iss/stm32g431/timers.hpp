@@ -18,7 +18,11 @@ public:
     /// Cycle of the next end of the counter's way; UINT64_MAX: it does not run.
     std::uint64_t next_end() const;
     /// The counter is at an end: true with an update event. It loads what is preloaded.
-    bool pass_end();
+    bool          pass_end();
+    std::uint64_t last_end() const ///< cycle of the end that was passed last
+    {
+        return began_ + ends_ * static_cast<std::uint64_t>(full_);
+    }
     /// The counter's top is where it is now.
     bool at_top() const;
     bool enabled() const; ///< the pins follow the PWM
@@ -29,7 +33,8 @@ public:
     {
         return active_;
     }
-    int full_cnt() const
+    std::array<int, 3> written_cnt() const; ///< those that the next update loads
+    int                full_cnt() const
     {
         return full_;
     }

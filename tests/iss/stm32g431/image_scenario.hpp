@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// A scenario of the simulation with the image that is flashed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sil/board/board_run.hpp"
+#include "stm32g431/cycle_meter.hpp"
+#include "stm32g431/image_run.hpp"
+
+namespace iss::stm32g431 {
+
+struct ImageResult {
+    sdre::BoardResult                           board;
+    std::vector<CycleMeter::Run>                interrupts; ///< those of the scenario
+    std::vector<std::pair<double, std::string>> functions;  ///< as of CycleMeter
+    double                                      period_cycles = 0.0;
+    double speed = 0.0; ///< simulated seconds in one of the processor, with boot and rehearsal
+};
+
+/// An image with its places of variables; std::runtime_error when it is none.
+Program read_program(const std::filesystem::path &image);
+
+/// InputError when the scenario is none for this board, or when the image does not come to RUN. The image must have the
+/// constants of the scenario's drive.
+ImageResult simulate_image(const sdre::Scenario &scenario, const Program &program);
+
+/// Worst and median cycles of the control interrupt, and the speed, as lines.
+std::string cycles_text(const ImageResult &result);
+
+} // namespace iss::stm32g431
