@@ -2,10 +2,12 @@
 #include "stm32g431/cycle_meter.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace iss::stm32g431 {
 
-CycleMeter::CycleMeter(Core &core, const ElfImage &image) : core_(core)
+CycleMeter::CycleMeter(Core &core, const ElfImage &image, std::function<bool()> counts)
+    : core_(core), counts_(std::move(counts))
 {
     for (const auto &[name, address] : image.symbols) {
         if ((address & 1U) != 0U && image.sizes.count(name) != 0) { // a function in Thumb code
@@ -21,7 +23,8 @@ void CycleMeter::begins(int exception, std::uint64_t cycle)
         began_       = cycle;
         accelerated_ = waits_.accelerated();
         bare_        = waits_.bare();
-        core_.watch_blocks(true);
+        counting_    = counts_();
+        core_.watch_blocks(true); // the flash keeps lines of every interrupt
     }
 }
 
@@ -29,6 +32,8 @@ void CycleMeter::ends(int exception, std::uint64_t cycle)
 {
     if (exception == control_interrupt) {
         core_.watch_blocks(false);
+    }
+    if (exception == control_interrupt && counting_) {
         runs_.push_back(
             {cycle - began_, waits_.accelerated() - accelerated_, waits_.bare() - bare_});
     }
@@ -38,7 +43,7 @@ void CycleMeter::block(std::uint32_t address, std::uint32_t octets, const BlockC
 {
     waits_.block(address, octets, cost);
     const auto after = names_.upper_bound(address);
-    if (after != names_.begin()) {
+    if (counting_ && after != names_.begin()) {
         spent_[std::prev(after)->first] += cost.cycles;
     }
 }

@@ -2,6 +2,7 @@
 /// Cycles of the control interrupt, one count for each of its runs, and in which functions they are spent.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ constexpr int control_interrupt = first_interrupt + 18; // ADC1 and ADC2
 class CycleMeter : public HandlerWatch {
 public:
     /// Watches from now on.
-    CycleMeter(Core &core, const ElfImage &image);
+    /// @param counts Asked at the beginning of each interrupt.
+    CycleMeter(Core &core, const ElfImage &image, std::function<bool()> counts);
 
     void begins(int exception, std::uint64_t cycle) override;
     void ends(int exception, std::uint64_t cycle) override;
@@ -49,6 +51,8 @@ private:
     std::map<std::uint32_t, std::uint64_t> spent_; // by address of a function
     std::vector<Run>                       runs_;
     FlashWaits                             waits_;
+    std::function<bool()>                  counts_;
+    bool                                   counting_    = false;
     std::uint64_t                          began_       = 0;
     std::uint64_t                          accelerated_ = 0;
     std::uint64_t                          bare_        = 0;

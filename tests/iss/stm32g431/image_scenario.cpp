@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "sil/board/board_scenario.hpp"
 #include "sil/run/controller.hpp"
 
@@ -32,6 +33,15 @@ std::string share(const char *what, std::uint64_t worst, std::uint64_t median, d
                        100.0 * static_cast<double>(median) / period);
 }
 
+/// The constants are compiled in.
+void check_constants(const sdre::Scenario &s)
+{
+    if (!s.controller_scale.empty() || s.nosc_order || s.nodo_order) {
+        throw sdre::InputError("the image has the constants of its drive file: the scenario asks "
+                               "for another controller");
+    }
+}
+
 } // namespace
 
 Program read_program(const std::filesystem::path &image)
@@ -41,6 +51,7 @@ Program read_program(const std::filesystem::path &image)
 
 ImageResult simulate_image(const sdre::Scenario &scenario, const Program &program)
 {
+    check_constants(scenario);
     const sdre::Scenario        s          = with_three_shunts(scenario);
     const sdre::Controller      controller = sdre::prepare_controller(s);
     ImageResult                 out;
@@ -52,16 +63,16 @@ ImageResult simulate_image(const sdre::Scenario &scenario, const Program &progra
         auto run =
             std::make_unique<ImageRun>(b.scenario, start_tick, program, b.dead_time_s <= 0.0);
         if (start_tick != sdre::MotorBench::never) {
-            meter       = std::make_unique<CycleMeter>(run->chip().core(), program.image);
+            meter =
+                std::make_unique<CycleMeter>(run->chip().core(), program.image, [r = run.get()] {
+                    return r->drive().state == DRIVE_RUN;
+                });
             rehearsed_s = 2.0 * static_cast<double>(start_tick) * sdre::control_period_s(s.drive);
         }
         return run;
     };
-    out.board = sdre::simulate_on_board(s, power_up, controller);
-    // Those from the first tick in RUN on.
-    const auto ticks =
-        static_cast<std::ptrdiff_t>(std::min(out.board.result.trace.size(), meter->runs().size()));
-    out.interrupts.assign(meter->runs().end() - ticks, meter->runs().end());
+    out.board         = sdre::simulate_on_board(s, power_up, controller);
+    out.interrupts    = meter->runs();
     out.functions     = meter->functions();
     out.period_cycles = sdre::control_period_s(s.drive) * core_Hz;
     out.speed         = (rehearsed_s + static_cast<double>(out.board.result.trace.size()) *

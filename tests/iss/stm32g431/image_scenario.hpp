@@ -15,7 +15,7 @@ namespace iss::stm32g431 {
 
 struct ImageResult {
     sdre::BoardResult                           board;
-    std::vector<CycleMeter::Run>                interrupts; ///< those of the scenario
+    std::vector<CycleMeter::Run>                interrupts; ///< those in RUN
     std::vector<std::pair<double, std::string>> functions;  ///< as of CycleMeter
     double                                      period_cycles = 0.0;
     double speed = 0.0; ///< simulated seconds in one of the processor, with boot and rehearsal

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/** What the background of the image and its board gave a tick. */
+/** Inputs of a tick: from the background of the image and from its board. */
 typedef struct {
     bool           has_command;
     app_objects_t  command;
@@ -23,7 +23,7 @@ typedef struct {
     uint16_t       board_faults;
 } shadow_input_t;
 
-/** What a tick of either makes. */
+/** Outputs of a tick, of the image or of the host. */
 typedef struct {
     board_duty_t  duty;
     app_mode_t    mode;

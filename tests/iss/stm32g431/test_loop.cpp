@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the image does in closed loop when something breaks.
+// The image in closed loop opens the bridge when something breaks, and tells why.
 #include <gtest/gtest.h>
 
 #include "stm32g431/image_bench.hpp"

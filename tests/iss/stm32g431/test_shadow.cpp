@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The image in closed loop and the same application in the host's build: the same inputs give the same duty ratios, tick by
-// tick and bit by bit, and so do the state and the estimates of the control core.
+// The image in closed loop, and the same application in the host's build. The same inputs give the same duty ratios, state
+// and estimates, tick by tick and bit by bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -69,6 +71,7 @@ public:
             return;
         }
         bench_.chip.core().read_octets(sample_at_, &in_.sample, sizeof in_.sample);
+        note_age();
         in_.board_faults            = bench_.memory.get<std::uint16_t>("shared", "board_faults");
         const shadow_output_t host  = shadow_tick(&in_);
         const shadow_output_t image = seen();
@@ -97,7 +100,21 @@ public:
         return first_;
     }
 
+    double worst_age_cnt() const ///< of the ages of edges, off what they were
+    {
+        return worst_age_cnt_;
+    }
+
 private:
+    void note_age()
+    {
+        const auto &edges = bench_.bench.edges();
+        if (in_.sample.edge_seen && !edges.empty()) {
+            const double true_cnt =
+                (bench_.bench.period_s() - edges.back().time_s) * BOARD_CAPTURE_Hz;
+            worst_age_cnt_ = std::max(worst_age_cnt_, std::abs(true_cnt - in_.sample.edge_age_cnt));
+        }
+    }
     shadow_output_t seen() const
     {
         const std::array<int, 3> duty = bench_.chip.written_cnt();
@@ -120,9 +137,10 @@ private:
     ImageBench    &bench_;
     std::uint32_t  sample_at_;
     shadow_input_t in_{};
-    long           ticks_       = 0;
-    long           runs_        = 0;
-    long           differences_ = 0;
+    long           ticks_         = 0;
+    long           runs_          = 0;
+    long           differences_   = 0;
+    double         worst_age_cnt_ = 0.0;
     std::string    first_;
 };
 
@@ -156,6 +174,8 @@ TEST_F(IssShadow, AnswersAsTheHostsBuildBitForBit)
     b.pass(0.01);
 
     EXPECT_EQ(shadow.differences(), 0) << shadow.first();
+    EXPECT_GT(shadow.worst_age_cnt(), 0.0);
+    EXPECT_LE(shadow.worst_age_cnt(), 6.0) << "four cycles of the reads, and rounding";
     for (const std::string &line : b.chip.core().findings()) {
         ADD_FAILURE() << line;
     }
