@@ -213,14 +213,12 @@ uint32_t app_canopen_pdo_map(app_canopen_pdo_t *p, uint16_t sub, uint32_t value,
 
     if (sub > APP_CANOPEN_MAPPED) {
         result = APP_CANOPEN_NO_SUB;
-    } else if (!off) {
-        /* in use */
-    } else if (sub == 0U) {
+    } else if (off && (sub == 0U)) {
         result = set_count(p, value);
-    } else if (p->count == 0U) {
+    } else if (off && (sub != 0U) && (p->count == 0U)) {
         result = map_object(&p->map[sub - 1U], value, receives);
     } else {
-        /* the number of objects is not 0 */
+        /* in use, or the number of objects is not 0 */
     }
     return result;
 }
