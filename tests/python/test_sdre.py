@@ -91,6 +91,7 @@ def test_design_has_gains_and_certificate_as_arrays() -> None:
         "board_flux_weakening",
         "servo_case_1_2",
         "harmonics_load_step",
+        "board_torque",
     ],
 )
 def test_run_is_that_of_sdre_sil(scenario: str, tmp_path: Path) -> None:
