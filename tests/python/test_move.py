@@ -20,7 +20,7 @@ DRIFT_CNT = 200  # a shaft that is let go turns on, braked by its viscous fricti
 
 def where_it_says(output: str) -> move.Where:
     """The last line of `sdre-drive move`."""
-    found = re.search(r"(-?\d+) counts, wanted (-?\d+)", output)
+    found = re.search(r"(-?\d+) position units, wanted (-?\d+)", output)
     assert found, output
     return move.Where(int(found.group(1)), int(found.group(2)))
 
