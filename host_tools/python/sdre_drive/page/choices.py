@@ -5,6 +5,17 @@ from __future__ import annotations
 
 from typing import Dict, Tuple
 
+INPUTS = ("negative limit switch", "positive limit switch", "home switch")  # from bit 0 on
+
+
+def _inputs(none: str) -> Tuple[Tuple[int, str], ...]:
+    """Every set of inputs."""
+    return tuple(
+        (word, ", ".join(name for bit, name in enumerate(INPUTS) if word >> bit & 1) or none)
+        for word in range(1 << len(INPUTS))
+    )
+
+
 CHOICES: Dict[str, Tuple[Tuple[int, str], ...]] = {
     "QUICK_STOP_OPTION": (
         (0, "opens the bridge, as disable voltage"),
@@ -29,5 +40,8 @@ CHOICES: Dict[str, Tuple[Tuple[int, str], ...]] = {
         (2, "8N2: no parity, two stop bits"),
     ),
     "SENSOR_TRIM": ((0, "believes them"), (1, "learns their errors in a run")),
+    "INPUTS_USED": _inputs("none"),
+    "INPUTS_INVERTED": _inputs("none: each is active when high or open"),
+    "BRAKE_USED": ((0, "none"), (1, "a holding brake at its output")),
     "DIRECTION_PIN": ((0, "not used"), (1, "high while the drive sends (RS-485)")),
 }
