@@ -455,7 +455,7 @@ static void write_at_sync(const app_objects_t *command)
 
 /* True while such a command stays: SYNC has not come yet, or the registers do not know of it. Any
  * other change withdraws the command. If the tick has taken it by then, the registers are told. */
-static bool waits_for_sync(app_registers_t *r)
+static bool keeps_for_sync(app_registers_t *r)
 {
     const bool came  = board_can_triggered();
     const bool holds = app_canopen_process_is_prepared(&app_line.canopen);
@@ -588,7 +588,7 @@ void app_background(void)
     app_parameters_rest(&app_line.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&app_line.modbus, r, now_ticks);
     app_canopen_poll(&app_line.canopen, r, now_ticks);
-    if (!waits_for_sync(r)) {
+    if (!keeps_for_sync(r)) {
         choose_constants(r);
         pass_command(r);
     }

@@ -69,14 +69,14 @@ static uint16_t most_of(const app_canopen_sdo_t *s)
 }
 
 /* Word of the room that has this octet. */
-static uint16_t word_of(const app_canopen_sdo_t *s, uint16_t n)
+static uint16_t room_word_of(const app_canopen_sdo_t *s, uint16_t n)
 {
     return s->paired ? (uint16_t)(n >> 1U) : n;
 }
 
 static uint16_t octet_of(const app_canopen_sdo_t *s, uint16_t n)
 {
-    const uint16_t at    = word_of(s, n);
+    const uint16_t at    = room_word_of(s, n);
     const uint16_t word  = (at < APP_CANOPEN_SDO_WORDS) ? s->octets[at] : 0U;
     const bool     upper = s->paired && ((n & 1U) != 0U);
 
@@ -86,7 +86,7 @@ static uint16_t octet_of(const app_canopen_sdo_t *s, uint16_t n)
 /* Drops what has no room, as end_write() knows the length. */
 static void put_octet(app_canopen_sdo_t *s, uint16_t n, uint16_t octet)
 {
-    const uint16_t at    = word_of(s, n);
+    const uint16_t at    = room_word_of(s, n);
     const bool     upper = s->paired && ((n & 1U) != 0U);
 
     if (at < APP_CANOPEN_SDO_WORDS) {
