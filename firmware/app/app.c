@@ -453,8 +453,9 @@ static void write_at_sync(const app_objects_t *command)
     shared.command_full = true;
 }
 
-/* True while such a command stays: SYNC has not come yet, or the registers do not know of it. Any
- * other change withdraws the command. If the tick has taken it by then, the registers are told. */
+/* True while such a command stays: SYNC has not come yet, or the registers do not know of it. Once
+ * they do, it is a command like others. Any other change withdraws the command. If the tick has
+ * taken it by then, the registers are told. */
 static bool keeps_for_sync(app_registers_t *r)
 {
     const bool came  = board_can_triggered();
@@ -462,14 +463,20 @@ static bool keeps_for_sync(app_registers_t *r)
     const bool full  = shared.command_full;
     bool       stays = shared.at_sync;
 
-    if (stays && !(holds && (came || (full && !r->changed)))) {
+    if (stays && app_line.canopen.acted) {
+        app_line.canopen.acted = false;
+        shared.at_sync         = false;
+        stays                  = false;
+    } else if (stays && !(holds && (came || (full && !r->changed)))) {
         shared.command_full = false;
         stays               = !came && board_can_triggered(); /* in between */
         shared.at_sync      = stays;
         r->changed          = r->changed || !full;
         if (!stays) {
-            app_line.canopen.prepared = false;
+            app_line.canopen.waiting = APP_CANOPEN_SYNC_NEW;
         }
+    } else {
+        /* it stays, or there is none */
     }
     return stays;
 }

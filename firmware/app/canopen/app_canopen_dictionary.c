@@ -187,7 +187,7 @@ static uint32_t write_pdo(app_canopen_t *c, const pdo_place_t *place, uint16_t s
                                           : app_canopen_pdo_map(p, sub, value, place->receives);
 
     if ((result == APP_CANOPEN_OK) && place->receives) {
-        c->prepared = false;
+        c->waiting = APP_CANOPEN_SYNC_NEW;
         app_canopen_node_listen(c);
     }
     return result;

@@ -74,6 +74,13 @@ typedef struct {
     bool                communication; /**< an error of the communication holds */
 } app_canopen_emergency_t;
 
+/** PDOs that wait for SYNC, app_canopen_process_prepare(). */
+typedef enum {
+    APP_CANOPEN_SYNC_NEW = 0, /**< one came, or none waits */
+    APP_CANOPEN_SYNC_REFUSED, /**< they act one by one */
+    APP_CANOPEN_SYNC_PREPARED /**< the application has their command */
+} app_canopen_sync_t;
+
 typedef struct {
     app_canopen_state_t     state;
     uint16_t                node; /**< 1 .. 127 */
@@ -93,7 +100,8 @@ typedef struct {
     uint32_t                block;         /**< selected registers, app_canopen_block.h */
     app_canopen_sdo_t       sdo;
     app_canopen_emergency_t emergency;
-    bool                    prepared; /**< app_canopen_process_prepare() knows all PDOs that wait */
+    app_canopen_sync_t      waiting;
+    bool                    acted; /**< what was prepared is in the registers now */
     app_canopen_pdo_t       received[APP_CANOPEN_PDOS];
     app_canopen_pdo_t       sent[APP_CANOPEN_PDOS];
 } app_canopen_t;

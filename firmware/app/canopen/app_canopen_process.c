@@ -7,7 +7,7 @@
 
 void app_canopen_process_reset(app_canopen_t *c)
 {
-    c->prepared = false;
+    c->waiting = APP_CANOPEN_SYNC_NEW;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         app_canopen_pdo_reset(&c->received[n], n, c->node, true);
         app_canopen_pdo_reset(&c->sent[n], n, c->node, false);
@@ -16,7 +16,7 @@ void app_canopen_process_reset(app_canopen_t *c)
 
 void app_canopen_process_start(app_canopen_t *c, uint32_t now_ticks)
 {
-    c->prepared = false;
+    c->waiting = APP_CANOPEN_SYNC_NEW;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         c->received[n].full    = false;
         c->received[n].watched = false;
@@ -26,12 +26,15 @@ void app_canopen_process_start(app_canopen_t *c, uint32_t now_ticks)
     }
 }
 
-static void act_on(app_canopen_t *c, app_canopen_pdo_t *p, app_registers_t *r)
+static bool act_on(app_canopen_t *c, app_canopen_pdo_t *p, app_registers_t *r)
 {
+    const bool ok = app_canopen_pdo_act(p, r);
+
     p->full = false;
-    if (!app_canopen_pdo_act(p, r)) {
+    if (!ok) {
         app_canopen_emergency_tell(&c->emergency, APP_CANOPEN_PDO_REFUSED);
     }
+    return ok;
 }
 
 static void take_octets(app_canopen_t *c, app_canopen_pdo_t *p, app_registers_t *r,
@@ -47,9 +50,9 @@ static void take_octets(app_canopen_t *c, app_canopen_pdo_t *p, app_registers_t 
         p->at_ticks = now_ticks;
         p->full     = true;
         if (p->type > APP_CANOPEN_SYNC_MOST) {
-            act_on(c, p, r);
+            (void)act_on(c, p, r);
         } else {
-            c->prepared = false;
+            c->waiting = APP_CANOPEN_SYNC_NEW;
         }
     }
 }
@@ -84,17 +87,22 @@ static void count_sync(app_canopen_pdo_t *p, const app_registers_t *r)
     }
 }
 
+/* What was prepared is no news: the tick has its command, or takes it next. */
 void app_canopen_process_sync(app_canopen_t *c, app_registers_t *r)
 {
-    c->prepared = false;
+    bool known = (c->waiting == APP_CANOPEN_SYNC_PREPARED) && !r->changed;
+
+    c->waiting = APP_CANOPEN_SYNC_NEW;
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         if (c->received[n].full) {
-            act_on(c, &c->received[n], r);
+            known = act_on(c, &c->received[n], r) && known;
         }
         if (app_canopen_pdo_is_used(&c->sent[n])) {
             count_sync(&c->sent[n], r);
         }
     }
+    c->acted   = c->acted || known; /* a second SYNC in this pass takes nothing back */
+    r->changed = r->changed && !known;
 }
 
 static bool waits_for_sync(const app_canopen_t *c)
@@ -110,23 +118,24 @@ static bool waits_for_sync(const app_canopen_t *c)
 /* A change of the mode may need other constants, which come with a later command. */
 bool app_canopen_process_prepare(app_canopen_t *c, app_registers_t *r)
 {
-    bool ok = !c->prepared && waits_for_sync(c);
+    bool ok = (c->waiting == APP_CANOPEN_SYNC_NEW) && waits_for_sync(c);
 
     if (ok) {
-        c->prepared = true;
         app_registers_begin(r);
         for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
             ok = ok && (!c->received[n].full || app_canopen_pdo_try(&c->received[n], r));
         }
         ok = ok && app_registers_fits(r) &&
              (r->trial.objects.mode_of_operation == r->requested.objects.mode_of_operation);
+        c->waiting = ok ? APP_CANOPEN_SYNC_PREPARED : APP_CANOPEN_SYNC_REFUSED;
+        c->acted   = false;
     }
     return ok;
 }
 
 bool app_canopen_process_is_prepared(const app_canopen_t *c)
 {
-    return c->prepared && (c->state == APP_CANOPEN_OPERATIONAL);
+    return (c->waiting == APP_CANOPEN_SYNC_PREPARED) && (c->state == APP_CANOPEN_OPERATIONAL);
 }
 
 /* An event: a change, or the event timer. The inhibit time holds both back. */

@@ -114,6 +114,48 @@ static void test_the_tick_after_sync_takes_the_command(void)
     TEST_ASSERT_EQUAL_INT(DISABLED, state());
 }
 
+static bool is_free(void)
+{
+    const app_objects_t o = app_line.registers.requested.objects;
+
+    return app_command_write(&o); /* false: one waits for the tick */
+}
+
+/* A command takes three periods, and SYNC may come every fifth. */
+static void test_the_command_is_given_once(void)
+{
+    control(SHUT_DOWN);
+    both(5);
+    put_sync();
+    app_tick();
+    app_background();
+    TEST_ASSERT_EQUAL_HEX(SHUT_DOWN, app_line.registers.requested.objects.controlword);
+    TEST_ASSERT_TRUE(is_free());
+    both(2);
+    control(SWITCH_ON);
+    both(5);
+    put_sync();
+    app_background(); /* reads SYNC before the tick sees it */
+    TEST_ASSERT_FALSE(is_free());
+    app_tick();
+    TEST_ASSERT_EQUAL_INT(SWITCHED, state());
+    app_background();
+    TEST_ASSERT_TRUE(is_free());
+}
+
+static void test_a_second_sync_takes_nothing_back(void)
+{
+    control(SHUT_DOWN);
+    both(5);
+    put_sync();
+    put_sync();
+    app_background(); /* reads both */
+    app_tick();
+    TEST_ASSERT_EQUAL_INT(READY, state());
+    both(5);
+    TEST_ASSERT_EQUAL_INT(READY, state());
+}
+
 static void test_a_sync_before_the_pdo_does_not_count(void)
 {
     put_sync();
@@ -351,6 +393,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_tick_after_sync_takes_the_command);
+    RUN_TEST(test_the_command_is_given_once);
+    RUN_TEST(test_a_second_sync_takes_nothing_back);
     RUN_TEST(test_a_sync_before_the_pdo_does_not_count);
     RUN_TEST(test_so_does_one_after_the_background_has_read_sync);
     RUN_TEST(test_no_order_loses_a_command_or_takes_one_back);
