@@ -87,7 +87,7 @@ static void count_sync(app_canopen_pdo_t *p, const app_registers_t *r)
     }
 }
 
-/* What was prepared is no news: the tick has its command, or takes it next. */
+/* The tick has the command of what was prepared, or takes it next. */
 void app_canopen_process_sync(app_canopen_t *c, app_registers_t *r)
 {
     bool known = (c->waiting == APP_CANOPEN_SYNC_PREPARED) && !r->changed;
