@@ -303,8 +303,9 @@ static void any_node(void)
     canopen.node         = (uint16_t)any_between(0, 127);
     canopen.ticks_per_ms = base_clamp(any_float, 0.1f, 100.0f); /* by its init */
     canopen.restart      = any_bool();
-    canopen.waiting      = (app_canopen_sync_t)any_between(APP_CANOPEN_SYNC_NEW, APP_CANOPEN_SYNC_PREPARED);
-    canopen.acted        = any_bool();
+    canopen.waiting =
+        (app_canopen_sync_t)any_between(APP_CANOPEN_SYNC_NEW, APP_CANOPEN_SYNC_PREPARED);
+    canopen.acted = any_bool();
     canopen.block =
         ((uint32_t)any_between(1, (int)APP_CANOPEN_SDO_WORDS) << 16U) + (uint32_t)any_word;
     canopen.watches = any_bool();
