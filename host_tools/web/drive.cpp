@@ -19,7 +19,7 @@
 #include "sil/served/control.hpp"
 #include "sil/served/motor_record.hpp"
 #include "sil/served/serial_bus.hpp"
-#include "sil/served/served_drive.hpp"
+#include "sil/served/served_f28335.hpp"
 
 namespace sdre {
 namespace {
@@ -33,10 +33,10 @@ constexpr std::uint8_t unit = 1;
 struct Served {
     explicit Served(const Drive &d, std::uint64_t seed) : drive(d, seed) {}
 
-    ServedDrive drive;
-    MotorRecord record;
-    SerialBus   bus;
-    Pace        pace;
+    ServedF28335 drive;
+    MotorRecord  record;
+    SerialBus    bus;
+    Pace         pace;
 };
 
 std::unique_ptr<Served> served; // the registers of the device exist once

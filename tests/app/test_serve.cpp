@@ -18,7 +18,7 @@
 #include "sil/serve/endpoints.hpp"
 #include "sil/serve/server.hpp"
 #include "sil/served/rtu_frame.hpp"
-#include "sil/served/served_drive.hpp"
+#include "sil/served/served_f28335.hpp"
 
 extern "C" {
 #include "app_modes.h"

@@ -11,6 +11,7 @@
 #include "common/errors.hpp"
 #include "sil/served/control.hpp"
 #include "sil/served/node_number.hpp"
+#include "sil/served/served_f28335.hpp"
 #include "sil/served/slcan.hpp"
 
 using namespace sdre;
@@ -41,7 +42,7 @@ public:
         }
     }
 
-    ServedDrive  drive{shipped(), 1};
+    ServedF28335 drive{shipped(), 1};
     MotorRecord  record;
     ServerReport server;
 };

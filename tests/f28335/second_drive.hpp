@@ -72,8 +72,8 @@ public:
 private:
     static void serve(int fd, std::uint64_t seed)
     {
-        ServedDrive drive(shipped_drive(), seed);
-        Parcel      go;
+        ServedF28335 drive(shipped_drive(), seed);
+        Parcel       go;
         while (recv(fd, &go, sizeof go, 0) == static_cast<ssize_t>(sizeof go)) {
             Parcel come;
             for (int n = 0; n < go.frames; n++) {

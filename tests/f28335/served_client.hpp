@@ -7,7 +7,7 @@
 #include "drive/drive_file.hpp"
 #include "modbus_pdu.hpp"
 #include "sil/served/rtu_frame.hpp"
-#include "sil/served/served_drive.hpp"
+#include "sil/served/served_f28335.hpp"
 
 namespace sdre {
 
@@ -84,7 +84,7 @@ protected:
     virtual void after_period() {}
 
     std::uint8_t unit = 1;
-    ServedDrive  served{shipped_drive(), 1};
+    ServedF28335 served{shipped_drive(), 1};
 };
 
 } // namespace sdre

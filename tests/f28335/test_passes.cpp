@@ -8,7 +8,7 @@
 #include "drive/drive_file.hpp"
 #include "modbus_pdu.hpp"
 #include "sil/served/serial_bus.hpp"
-#include "sil/served/served_drive.hpp"
+#include "sil/served/served_f28335.hpp"
 
 extern "C" {
 #include "app_control.h"
@@ -57,7 +57,7 @@ public:
     {
         return word(APP_REGISTERS_MODE);
     }
-    ServedDrive &drive()
+    ServedF28335 &drive()
     {
         return drive_;
     }
@@ -81,7 +81,7 @@ private:
     }
 
     Drive               drive_file_;
-    ServedDrive         drive_;
+    ServedF28335        drive_;
     SerialBus           bus_;
     std::vector<Octets> answers_;
 };

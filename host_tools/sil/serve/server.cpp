@@ -13,6 +13,7 @@
 
 #include "common/errors.hpp"
 #include "sil/serve/boot_rom.hpp"
+#include "sil/served/served_f28335.hpp"
 
 namespace sdre {
 namespace {
@@ -60,17 +61,30 @@ bool is_text(const Octets &come)
 
 Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
     : options_(options), flash_(options.flash),
-      drive_(drive, {options.machine.value_or(drive), options.cogging_share}, seed, flash_.words()),
+      drive_(std::make_unique<ServedF28335>(
+          drive, Machine{options.machine.value_or(drive), options.cogging_share}, seed,
+          flash_.words())),
       pace_(options.speed_factor)
 {
-    open(Kind::tcp, options.tcp);
-    open(Kind::rtu, options.rtu_tcp);
-    open(Kind::control, options.control);
-    if (options.can.any()) {
-        can_.emplace(drive_, options.can);
+    open_all();
+}
+
+Server::Server(std::unique_ptr<ServedDrive> drive, const ServeOptions &options)
+    : options_(options), flash_(""), drive_(std::move(drive)), pace_(options.speed_factor)
+{
+    open_all();
+}
+
+void Server::open_all()
+{
+    open(Kind::tcp, options_.tcp);
+    open(Kind::rtu, options_.rtu_tcp);
+    open(Kind::control, options_.control);
+    if (options_.can.any()) {
+        can_.emplace(*drive_, options_.can);
     }
-    if (!options.pty.empty()) { // last: a link is made by a run that has everything else
-        pty_ = std::make_unique<PseudoTerminal>(options.pty);
+    if (!options_.pty.empty()) { // last: a link is made by a run that has everything else
+        pty_ = std::make_unique<PseudoTerminal>(options_.pty);
         clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0, {}, 0});
     }
 }
@@ -84,7 +98,7 @@ void Server::open(Kind kind, std::optional<int> port)
 
 std::string Server::greeting() const
 {
-    std::string s = fmt::format("{} on the virtual F28335, unit 1:\n", drive_.drive().name);
+    std::string s = fmt::format("{} on {}, unit 1:\n", drive_->drive().name, drive_->board());
     if (pty_) {
         s += fmt::format("  Modbus RTU       {}\n", options_.pty);
     }
@@ -193,7 +207,7 @@ void Server::answer_one_line()
     if (!line.empty() && line.back() == '\r') {
         line.pop_back();
     }
-    const std::string answer = control_answer(line, drive_, record_, report());
+    const std::string answer = control_answer(line, *drive_, record_, report());
     send(*next, Octets(answer.begin(), answer.end()));
 }
 
@@ -276,10 +290,10 @@ void Server::write_rest(Client &client)
 
 void Server::run_until(double time_s)
 {
-    while (drive_.time_s() < time_s) {
-        drive_.period();
-        record_.note(drive_);
-        bus_.step(drive_, [this](const BusRequest &r, const Octets &a) { deliver(r, a); });
+    while (drive_->time_s() < time_s) {
+        drive_->period();
+        record_.note(*drive_);
+        bus_.step(*drive_, [this](const BusRequest &r, const Octets &a) { deliver(r, a); });
         step_can();
     }
 }
@@ -288,7 +302,7 @@ void Server::run_until(double time_s)
 void Server::begin_can()
 {
     if (options_.node) {
-        node_.emplace(drive_, *options_.node);
+        node_.emplace(*drive_, *options_.node);
         bus_.push({own_client, 0, own_unit, node_->request()});
     } else if (can_) {
         can_->join();
@@ -364,17 +378,17 @@ void Server::run()
         boot();
     }
     begin_can();
-    double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor();
+    double origin_s = wall_now_s() - drive_->time_s() / pace_.speed_factor();
     while (asked_to_end == 0 && !stopped_ &&
-           (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
+           (options_.end_s <= 0.0 || drive_->time_s() < options_.end_s)) {
         const double wall_s   = wall_now_s();
         const double wanted_s = (wall_s - origin_s) * pace_.speed_factor();
-        const double late_s   = wanted_s - drive_.time_s() - most_late_s;
+        const double late_s   = wanted_s - drive_->time_s() - most_late_s;
         if (late_s > 0.0) {
             origin_s += late_s / pace_.speed_factor();
             pace_.slip(late_s);
         }
-        pace_.note(wall_s, drive_.time_s());
+        pace_.note(wall_s, drive_->time_s());
         if (pace_.has_become_slow()) {
             fmt::print("slow: {:.2f} s of the drive in a second of the clock; the drive does not "
                        "notice it\n",
@@ -387,7 +401,7 @@ void Server::run()
             can_->read();
         }
         answer_one_line();
-        run_until(std::min(wanted_s, drive_.time_s() + most_late_s));
+        run_until(std::min(wanted_s, drive_->time_s() + most_late_s));
         flash_.keep();
         wait(slice_s);
     }

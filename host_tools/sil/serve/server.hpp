@@ -36,7 +36,10 @@ struct ServeOptions {
 
 class Server {
 public:
+    /// The firmware on the virtual F28335.
     Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options);
+    /// A drive of another board: without a file for its flash, without a boot ROM.
+    Server(std::unique_ptr<ServedDrive> drive, const ServeOptions &options);
 
     /// Lines with everything that a person needs to connect.
     std::string greeting() const;
@@ -74,6 +77,7 @@ private:
     };
 
     void         open(Kind kind, std::optional<int> port);
+    void         open_all();
     void         accept_all(double wall_s);
     void         make_room();
     void         read_all(double wall_s);
@@ -94,7 +98,7 @@ private:
 
     ServeOptions                    options_;
     FlashFile                       flash_;
-    ServedDrive                     drive_;
+    std::unique_ptr<ServedDrive>    drive_;
     MotorRecord                     record_;
     SerialBus                       bus_;
     Pace                            pace_;

@@ -103,8 +103,16 @@ const char *can_fault(const ServedDrive &drive)
     return "";
 }
 
+void require_connection(bool has, const char *what, const ServedDrive &drive)
+{
+    if (!has) {
+        throw InputError(fmt::format("{}: {} has none", what, drive.board()));
+    }
+}
+
 void set_can_fault(const std::string &name, ServedDrive &drive)
 {
+    require_connection(drive.connections().can, "a CAN bus", drive);
     for (const CanFaultName &f : can_faults) {
         if (name == f.name) {
             drive.can_bus().set_fault(f.fault);
@@ -121,6 +129,9 @@ void set_switch(const std::string &text, ServedDrive &drive)
     const std::size_t space = text.find(' ');
     const std::string which = text.substr(0, space);
     const std::string rest  = space == std::string::npos ? "" : text.substr(space + 1);
+    if (which == "negative" || which == "positive") {
+        require_connection(drive.connections().limit_inputs, "a limit switch", drive);
+    }
     if (which == "none") {
         drive.switches() = {};
     } else if (which == "negative") {
@@ -143,6 +154,7 @@ void set_switch(const std::string &text, ServedDrive &drive)
 /// "holding_brake 3 0.05 0.03": N m, seconds to release and to close; "holding_brake 0": none.
 void set_holding_brake(const std::string &text, ServedDrive &drive)
 {
+    require_connection(drive.connections().holding_brake, "an output for a holding brake", drive);
     std::istringstream   in(text);
     std::string          torque;
     std::string          release;

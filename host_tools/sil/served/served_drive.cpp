@@ -6,37 +6,13 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "sil/board/board_choice.hpp"
-#include "sil/board/board_runs.hpp"
 #include "sil/setup/board_reader.hpp"
-
-extern "C" {
-extern volatile std::uint32_t watchdog_after_reset[2]; // firmware/board/f28335/watchdog.c
-std::uint16_t                *f28335_board_kept(void);
-}
 
 namespace sdre {
 namespace {
 
-// Beyond the longest boot: clock 4 ms, converter 5 ms. After a reset the loader may run, which has no ticks.
-constexpr double longest_boot_s = 0.5;
-// Chosen: between two ticks, clear of the conversion that follows each.
-constexpr double rest_share = 0.25;
-constexpr double no_end_s   = 1e9;
-constexpr double pi         = 3.14159265358979323846;
-
-constexpr int pin_home     = 26; // docs/hardware.md
-constexpr int pin_negative = 32;
-constexpr int pin_positive = 33;
-
-/// The firmware's constants, before anything of the board is made.
-Controller bound(const Scenario &s)
-{
-    require_f28335(s.drive);
-    Controller c = prepare_controller(s, Precision::extended);
-    set_firmware(c.config, s.drive);
-    return c;
-}
+constexpr double no_end_s = 1e9;
+constexpr double pi       = 3.14159265358979323846;
 
 // Chosen: bearings, seals and fan of a small machine take one to three per cent of its rated torque.
 constexpr double dry_friction_share = 0.02;
@@ -116,72 +92,17 @@ Scenario bench_scenario(const Drive &drive, const Machine &bench, std::uint64_t 
     return s;
 }
 
-ServedDrive::ServedDrive(const Drive &drive, const Machine &machine, std::uint64_t seed,
-                         const f28335::FlashWords &flash, bool own_stack)
-    : scenario_(bench_scenario(drive, machine, seed)), controller_(bound(scenario_)),
-      bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1),
-      own_stack_(own_stack), dynamometer_(drive), source_V_(scenario_.dc_link_V)
+ServedDrive::ServedDrive(const Scenario &scenario)
+    : scenario_(scenario), bench_(scenario_, 0), dynamometer_(scenario.drive),
+      source_V_(scenario.dc_link_V)
 {
-    if (flash.empty()) {
-        f28335::erase_flash();
-    } else {
-        f28335::set_flash(flash);
-    }
-    power_cycle();
 }
 
-void ServedDrive::power_up(bool after_reset)
+void ServedDrive::set_load()
 {
-    before_s_ += device_ ? device_->time_s() : 0.0;
-    device_.reset(); // the registers exist once
-    surroundings_.brake_changes(false, 0.0);
-    broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
-                                 [](const InjectedFault &f) { return needs_processor(f.kind); }),
-                  broken_.end());
-    f28335::hang_ticks(false);
-    device_ = std::make_unique<f28335::Device>(
-        surroundings_, f28335::whole_firmware(),
-        f28335::DeviceOptions{{},
-                              scenario_.drive.inverter.dead_time_s,
-                              after_reset ? watchdog_low_s_ : power_on_low_s_,
-                              f28335::AtLoad::old_values,
-                              own_stack_,
-                              &can_bus_});
-    const long before = bench_.tick();
-    if (!device_->run_until([&] { return bench_.tick() > before; }, longest_boot_s) &&
-        !after_reset) {
-        throw InputError(fmt::format("serve: the firmware does not start{}{}",
-                                     findings().empty() ? "" : ": ",
-                                     findings().empty() ? "" : findings().front()));
-    }
-    ready_s_ = device_->time_s();
-    device_->run_for(rest_share * period_s());
-}
-
-/// Memory without power: anything, and not the same twice.
-void ServedDrive::power_cycle()
-{
-    for (volatile std::uint32_t &word : watchdog_after_reset) {
-        word = 0x9E3779B9U * ++power_cycles_;
-    }
-    for (std::size_t n = 0; n < BOARD_KEPT_WORDS; n++) {
-        f28335_board_kept()[n] = static_cast<std::uint16_t>((0x9E3779B9U * ++power_cycles_) >> 16U);
-    }
-    power_up(false);
-}
-
-void ServedDrive::period()
-{
-    if (device_->stopped()) {
-        resets_++;
-        power_up(true);
-        return;
-    }
     const DynamometerTorque torque = dynamometer_.at(plant_state().omega_e_radps);
     bench_.board()->set_extra_load_Nm(torque.active_Nm);
     bench_.board()->set_extra_brake_Nm(torque.brake_Nm);
-    set_inputs();
-    device_->run_for(period_s());
 }
 
 double ServedDrive::turns() const
@@ -189,14 +110,11 @@ double ServedDrive::turns() const
     return plant_state().theta_e_rad / (2.0 * pi * scenario_.drive.motor.pole_pairs);
 }
 
-/// Contacts that open when they are active; an input without a switch is open.
-void ServedDrive::set_inputs()
+/// An input without a switch is open.
+bool ServedDrive::home_is_open() const
 {
-    const double at   = turns();
-    const auto  &home = switches_.home;
-    device_->set_input(pin_home, !home || (at >= home->first && at <= home->second));
-    device_->set_input(pin_negative, !switches_.negative || at <= *switches_.negative);
-    device_->set_input(pin_positive, !switches_.positive || at >= *switches_.positive);
+    const auto &home = switches_.home;
+    return !home || (turns() >= home->first && turns() <= home->second);
 }
 
 void ServedDrive::set_dc_link_V(double voltage_V)
@@ -219,38 +137,21 @@ void ServedDrive::mend()
     }
 }
 
+void ServedDrive::forget_processor_faults()
+{
+    broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
+                                 [](const InjectedFault &f) { return needs_processor(f.kind); }),
+                  broken_.end());
+}
+
 void ServedDrive::break_part(const InjectedFault &fault)
 {
     broken_.push_back(fault);
-    switch (fault.kind) {
-    case FaultKind::tick_hung:
-        f28335::hang_ticks(true);
-        break;
-    case FaultKind::trigger_lost:
-        device_->lose_trigger();
-        break;
-    case FaultKind::interrupt_masked:
-        device_->mask_interrupts();
-        break;
-    case FaultKind::phase_open:
-    case FaultKind::current_zero:
-    case FaultKind::current_frozen:
-    case FaultKind::current_drift:
-    case FaultKind::current_gain:
-    case FaultKind::encoder_losing:
-    case FaultKind::index_missing:
+    if (needs_processor(fault.kind)) {
+        break_processor(fault.kind);
+    } else {
         bench_.board()->break_part(fault);
-        break;
     }
-}
-
-std::vector<std::string> ServedDrive::findings() const
-{
-    std::vector<std::string> all;
-    for (const f28335::Findings::Entry &e : device_->findings().all()) {
-        all.push_back(fmt::format("{:.6f} s: {}", e.time_s, e.text));
-    }
-    return all;
 }
 
 } // namespace sdre

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// The firmware on the virtual F28335 with a free motor: from power-up, without an end.
+/// A drive with a free motor on its bench: from power-up, without an end. A class of each board runs the firmware.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "sil/board/motor_surroundings.hpp"
-#include "sil/f28335/device.hpp"
-#include "sil/f28335/flash_unit.hpp"
-#include "sil/run/controller.hpp"
+#include "sil/f28335/can_bus.hpp"
 #include "sil/run/motor_bench.hpp"
 #include "sil/served/axis_switches.hpp"
 #include "sil/served/dynamometer.hpp"
@@ -27,46 +22,38 @@ struct Machine {
         cogging_share; ///< amplitude, of the rated torque; slots periods a turn, or 12 a pole pair
 };
 
+/// The board's connections that the simulation has.
+struct Connections {
+    bool can           = true;
+    bool limit_inputs  = true;
+    bool holding_brake = true;
+};
+
 class ServedDrive {
 public:
-    /// InputError or DesignError when the board cannot have the drive, or no gains exist.
-    /// @param machine Is on the bench; the firmware knows the motor and disc of `drive`.
-    /// @param flash   What its flash has at the start; empty: as from the factory.
-    /// @param own_stack As of f28335::DeviceOptions.
-    ServedDrive(const Drive &drive, const Machine &machine, std::uint64_t seed,
-                const f28335::FlashWords &flash = {}, bool own_stack = f28335::can_switch_stacks);
-    ServedDrive(const Drive &drive, std::uint64_t seed) : ServedDrive(drive, drive, seed) {}
+    ServedDrive(const ServedDrive &)            = delete;
+    ServedDrive &operator=(const ServedDrive &) = delete;
+    virtual ~ServedDrive()                      = default;
+
+    /// What runs the firmware, as "the virtual F28335".
+    virtual std::string board() const       = 0;
+    virtual Connections connections() const = 0;
 
     /// One control period. A device that its watchdog has reset starts again.
-    void period();
+    virtual void period() = 0;
     /// Off and on: registers and memory are as after power-on, the flash is as it was.
-    void power_cycle();
-    /// How long the reset pin stays low after power-on, and after a reset by the watchdog.
-    void set_reset_line(double power_on_s, double watchdog_s)
-    {
-        power_on_low_s_ = power_on_s;
-        watchdog_low_s_ = watchdog_s;
-    }
-    double period_s() const
+    virtual void power_cycle() = 0;
+    double       period_s() const
     {
         return bench_.period_s();
     }
     /// Since the start. While the loader runs, nothing else does: the motor stands still meanwhile.
-    double time_s() const
-    {
-        return before_s_ + device_->time_s();
-    }
+    virtual double time_s() const = 0;
 
     // The serial line.
-    void send(std::uint8_t octet)
-    {
-        device_->serial().send(octet);
-    }
+    virtual void send(std::uint8_t octet) = 0;
     /// -1: nothing.
-    int take()
-    {
-        return device_->serial().take();
-    }
+    virtual int take() = 0;
 
     /// Outlives resets and power cycles of the device.
     f28335::CanBus &can_bus()
@@ -76,15 +63,6 @@ public:
     const f28335::CanBus &can_bus() const
     {
         return can_bus_;
-    }
-    f28335::EcanUnit &can()
-    {
-        return device_->can();
-    }
-
-    f28335::SciUnit &line()
-    {
-        return device_->serial();
     }
 
     // The motor's surroundings.
@@ -101,6 +79,10 @@ public:
     {
         return switches_;
     }
+    const AxisSwitches &switches() const
+    {
+        return switches_;
+    }
     /// A brake at the drive's output, closed now.
     void set_holding_brake(const HoldingBrakeSettings &settings)
     {
@@ -110,18 +92,10 @@ public:
     {
         return bench_.board()->brake_is_closed();
     }
-    /// Length of a pass of the firmware's background loop, until a reset.
-    void set_pass(double time_s)
-    {
-        device_->set_pass(time_s);
-    }
-    /// The trip input, TZ1, until a reset.
-    void set_trip_input(bool active)
-    {
-        device_->set_fault_pin(active);
-    }
     /// Turns of the shaft from the index mark.
     double turns() const;
+    /// The home switch is a contact that opens when it is active.
+    bool home_is_open() const;
     /// Voltage of the supply; the dc link's own is in plant_state().
     double source_V() const
     {
@@ -143,47 +117,40 @@ public:
     {
         return bench_.bridge_on();
     }
-    int resets() const
-    {
-        return resets_;
-    }
-    const f28335::Device &device() const
-    {
-        return *device_;
-    }
-    /// From the last start of main() to the first tick.
-    double ready_s() const
-    {
-        return ready_s_;
-    }
+    virtual int resets() const = 0;
     /// Findings of the device's model, one line each.
-    std::vector<std::string> findings() const;
-    const Drive             &drive() const
+    virtual std::vector<std::string> findings() const = 0;
+    const Drive                     &drive() const
     {
         return scenario_.drive;
     }
 
-private:
-    void power_up(bool after_reset);
-    void set_inputs();
+protected:
+    explicit ServedDrive(const Scenario &scenario);
 
-    Scenario                        scenario_;
-    Controller                      controller_;
-    MotorBench                      bench_;
-    f28335::MotorSurroundings       surroundings_;
-    bool                            own_stack_;
-    f28335::CanBus                  can_bus_;
-    std::unique_ptr<f28335::Device> device_;
-    Dynamometer                     dynamometer_;
-    AxisSwitches                    switches_;
-    double                          source_V_;
-    std::vector<InjectedFault>      broken_;
-    int                             resets_         = 0;
-    double                          ready_s_        = 0.0;
-    unsigned                        power_cycles_   = 0;
-    double                          power_on_low_s_ = 0.2;
-    double                          watchdog_low_s_ = f28335::watchdog_pulse_s;
-    double                          before_s_       = 0.0; ///< of the devices before the last reset
+    const Scenario &scenario() const
+    {
+        return scenario_;
+    }
+    MotorBench &bench()
+    {
+        return bench_;
+    }
+    /// What the dynamometer does to the shaft in the next period.
+    void set_load();
+    /// A reset has ended the faults of the processor.
+    void forget_processor_faults();
+
+private:
+    virtual void break_processor(FaultKind kind) = 0;
+
+    Scenario                   scenario_;
+    MotorBench                 bench_;
+    f28335::CanBus             can_bus_;
+    Dynamometer                dynamometer_;
+    AxisSwitches               switches_;
+    double                     source_V_;
+    std::vector<InjectedFault> broken_;
 };
 
 /// Dry friction of the bench: 2 % of the rated torque when the motor's file has no friction, else 0. A data sheet seldom has
