@@ -138,6 +138,10 @@ void Core::read_octets(std::uint32_t address, void *to, std::size_t count) const
 
 void Core::reset(std::uint32_t vectors)
 {
+    if (hangs_at_ != 0U) {
+        change_code(hangs_at_, hangs_in_place_of_);
+        hangs_at_ = 0;
+    }
     exceptions_.reset(vectors);
     put(UC_ARM_REG_XPSR, state_thumb);
     put(UC_ARM_REG_CONTROL, 0);
@@ -181,7 +185,15 @@ void Core::mask_interrupts()
 
 void Core::hang_at(std::uint32_t address)
 {
-    set_octets(address & ~thumb, {0xFE, 0xE7});
+    hangs_at_ = address & ~thumb;
+    hangs_in_place_of_.resize(2);
+    read_octets(hangs_at_, hangs_in_place_of_.data(), hangs_in_place_of_.size());
+    change_code(hangs_at_, {0xFE, 0xE7});
+}
+
+void Core::change_code(std::uint32_t address, const std::vector<std::uint8_t> &octets)
+{
+    set_octets(address, octets);
     need(uc_ctl_flush_tlb(uc_)); // of translated code
     known_.assign(blocks_known, Known{});
 }

@@ -104,7 +104,7 @@ public:
     }
     /// As if the program had masked them now.
     void mask_interrupts();
-    /// The instruction there becomes a branch to itself.
+    /// The instruction there becomes a branch to itself, until a reset.
     void          hang_at(std::uint32_t address);
     std::uint32_t word(std::uint32_t address) const;
     void          read_octets(std::uint32_t address, void *to, std::size_t count) const;
@@ -142,6 +142,7 @@ private:
                          void *mapped);
 
     void             begin_block(std::uint32_t address, std::uint32_t octets);
+    void             change_code(std::uint32_t address, const std::vector<std::uint8_t> &octets);
     const BlockCost &cost(std::uint32_t address, std::uint32_t octets);
     void             execute();
     void             sleep();
@@ -168,13 +169,15 @@ private:
     HandlerWatch                        *watch_        = nullptr;
     bool                                 watch_blocks_ = false;
     std::uint32_t                        after_        = 0; // what follows the last block in memory
-    std::uint32_t            not_taken_ = 0; // its cost is less by this, if that comes next
-    End                      end_       = End::asked;
-    bool                     stop_      = false;
-    bool                     sleeps_    = false;
-    bool                     halted_    = false;
-    std::string              why_;
-    std::vector<std::string> findings_;
+    std::uint32_t             not_taken_ = 0; // its cost is less by this, if that comes next
+    End                       end_       = End::asked;
+    bool                      stop_      = false;
+    bool                      sleeps_    = false;
+    bool                      halted_    = false;
+    std::string               why_;
+    std::uint32_t             hangs_at_ = 0; // 0: nowhere
+    std::vector<std::uint8_t> hangs_in_place_of_;
+    std::vector<std::string>  findings_;
 };
 
 } // namespace iss

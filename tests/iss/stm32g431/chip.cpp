@@ -146,8 +146,18 @@ void Chip::restart(std::uint32_t cause)
 {
     resets_++;
     rcc_.note_reset(cause);
+    trigger_lost_ = false;
     reset_devices();
     core_.reset(flash_base);
+}
+
+void Chip::power_cycle()
+{
+    anything_ = static_cast<std::uint8_t>(anything_ + 0x9DU);
+    core_.set_octets(ram_base, std::vector<std::uint8_t>(ram_octets, anything_));
+    rcc_.lose_power();
+    restart(0);
+    resets_ = 0;
 }
 
 std::uint64_t Chip::next_event()

@@ -32,12 +32,18 @@ public:
     {
         return period_began_;
     }
-    int resets() const
+    int resets() const ///< since the last power_cycle()
     {
         return resets_;
     }
+    /// Off and on: the flash is as it was, the RAM holds anything.
+    void power_cycle();
     /// A comparator sees too much current.
     void set_over_current(bool active);
+    void open_home_switch(bool open)
+    {
+        port_a_.drive(15, open);
+    }
     void press_button(bool pressed)
     {
         port_c_.drive(10, !pressed);
@@ -48,7 +54,7 @@ public:
     }
     /// The crystal stops; cycles stay what they are.
     void stop_crystal();
-    /// No conversion begins from now on.
+    /// No conversion begins until a reset.
     void lose_trigger()
     {
         trigger_lost_ = true;
@@ -153,6 +159,7 @@ private:
     bool          break_        = false;
     std::uint64_t period_began_ = 0;
     int           resets_       = 0;
+    std::uint8_t  anything_     = 0; // in the RAM
 };
 
 } // namespace iss::stm32g431

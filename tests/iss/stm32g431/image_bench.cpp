@@ -45,6 +45,17 @@ sdre::Scenario at_rest(const sdre::Drive &drive)
     return s;
 }
 
+void break_chip(Chip &chip, const Program &program, sdre::FaultKind kind)
+{
+    if (kind == sdre::FaultKind::tick_hung) {
+        chip.core().hang_at(program.image.symbols.at("app_tick"));
+    } else if (kind == sdre::FaultKind::trigger_lost) {
+        chip.lose_trigger();
+    } else {
+        chip.core().mask_interrupts();
+    }
+}
+
 ImageBench::ImageBench(const sdre::Scenario &s, double start_s, const Program &p)
     : program(p), scenario(s), bench(s, std::lround(start_s / sdre::control_period_s(s.drive))),
       circuit(bench, s.drive, false), chip(p.image, circuit),

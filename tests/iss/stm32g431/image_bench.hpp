@@ -26,6 +26,9 @@ struct Program {
 /// The drive at rest with the sensors and the dead time of its file, three shunts, and the dry friction of a small machine.
 sdre::Scenario at_rest(const sdre::Drive &drive);
 
+/// A fault of the processor, until a reset.
+void break_chip(Chip &chip, const Program &program, sdre::FaultKind kind);
+
 class ImageBench {
 public:
     /// @param start_s Until then the shaft is held and passes the index once: the drive knows the angle. 0: it is free.

@@ -78,13 +78,7 @@ app_status_t ImageRun::status() const
 
 void ImageRun::inject(sdre::FaultKind kind)
 {
-    if (kind == sdre::FaultKind::tick_hung) {
-        chip_.core().hang_at(program_.image.symbols.at("app_tick"));
-    } else if (kind == sdre::FaultKind::trigger_lost) {
-        chip_.lose_trigger();
-    } else {
-        chip_.core().mask_interrupts();
-    }
+    break_chip(chip_, program_, kind);
 }
 
 std::array<int, 3> ImageRun::duty_cnt() const

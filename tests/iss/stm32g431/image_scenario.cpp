@@ -49,9 +49,27 @@ Program read_program(const std::filesystem::path &image)
     return {read_elf(image), read_elf(ISS_LAYOUT)};
 }
 
+/// The digest of the drive file is among the constants.
+void require_constants(const Program &program, const sdre::Drive &drive)
+{
+    const std::string digest = sdre::drive_digest(drive);
+    const bool        has    = std::any_of(
+                  program.image.segments.begin(), program.image.segments.end(), [&](const ElfSegment &s) {
+            return std::search(s.octets.begin(), s.octets.end(), digest.begin(), digest.end()) !=
+                   s.octets.end();
+        });
+    if (!has) {
+        throw sdre::InputError(
+            fmt::format("the image has the constants of another drive than {} ({}): build it with "
+                        "the tables of this one (-DSDRE_TABLES=DIR)",
+                        drive.name, digest));
+    }
+}
+
 ImageResult simulate_image(const sdre::Scenario &scenario, const Program &program)
 {
     check_constants(scenario);
+    require_constants(program, scenario.drive);
     const sdre::Scenario        s          = with_three_shunts(scenario);
     const sdre::Controller      controller = sdre::prepare_controller(s);
     ImageResult                 out;

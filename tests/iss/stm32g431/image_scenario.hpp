@@ -24,8 +24,11 @@ struct ImageResult {
 /// An image with its places of variables; std::runtime_error when it is none.
 Program read_program(const std::filesystem::path &image);
 
-/// InputError when the scenario is none for this board, or when the image does not come to RUN. The image must have the
-/// constants of the scenario's drive.
+/// InputError: the constants in the image are not those of the drive.
+void require_constants(const Program &program, const sdre::Drive &drive);
+
+/// InputError when the scenario is none for this board or for the constants of the image, or when the image does not come
+/// to RUN.
 ImageResult simulate_image(const sdre::Scenario &scenario, const Program &program);
 
 /// Worst and median cycles of the control interrupt, and the speed, as lines.

@@ -1,21 +1,49 @@
 // SPDX-License-Identifier: MIT
-// sdre-iss: a scenario with the image that is flashed, instruction by instruction. A program of the tests: it links Unicorn,
-// which is under the GPL.
+// sdre-iss: the image that is flashed, instruction by instruction, with a simulated motor. A program of the tests: it links
+// Unicorn, which is under the GPL.
 #include <fmt/format.h>
 
 #include "common/command_line.hpp"
+#include "common/data_files.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/eval/results.hpp"
+#include "sil/serve/serve_arguments.hpp"
 #include "stm32g431/cycle_meter.hpp"
 #include "stm32g431/image_scenario.hpp"
+#include "stm32g431/served_image.hpp"
 
 namespace {
 
 using namespace iss::stm32g431;
 
-struct Options {
+constexpr const char *shipped = "m2310p_24v";
+
+void declare_image(sdre::OptionList &list, std::string &image)
+{
+    list.text("--image", image,
+              "program (ELF) with the constants of the drive (default: as the preset "
+              "stm32g431-release builds it)");
+}
+
+/// The named image, or the one beside the build tree of this program.
+Program program_of(const std::string &named)
+{
+    const std::filesystem::path file =
+        named.empty() ? (sdre::program_directory() / "../../stm32g431/bin/sdre_stm32g431.elf")
+                            .lexically_normal()
+                      : std::filesystem::path(named);
+    if (!std::filesystem::exists(file)) {
+        throw sdre::InputError(fmt::format(
+            "--image: there is no {}; \"cmake --preset stm32g431-release && cmake --build --preset "
+            "stm32g431-release\" builds build/stm32g431/bin/sdre_stm32g431.elf",
+            file.string()));
+    }
+    return read_program(file);
+}
+
+struct RunOptions {
     std::string scenario;
     std::string drive;
     std::string image;
@@ -25,24 +53,24 @@ struct Options {
     bool        functions = false;
 };
 
-void declare(sdre::OptionList &list, Options &o)
+void declare_run(sdre::OptionList &list, RunOptions &o)
 {
     list.required("SCENARIO", o.scenario, "scenario file (TOML)");
     list.text("--drive", o.drive, "drive file instead of the scenario's");
-    list.required("--image", o.image, "program (ELF) with the constants of that drive");
+    declare_image(list, o.image);
     list.text("--csv", o.csv, "write the trace, one row per control period");
     list.text("--json", o.json, "write the metrics");
     list.number("--seed", o.seed, {1, 2147483647}, "seed of the noise");
     list.flag("--functions", o.functions, "print where the control interrupt spends its cycles");
 }
 
-int run(const Options &o)
+int run(const RunOptions &o)
 {
     sdre::Scenario scenario = sdre::read_scenario_file(o.scenario, o.drive);
     if (o.seed > 0) {
         scenario.seed = static_cast<std::uint64_t>(o.seed);
     }
-    const Program            program = read_program(o.image);
+    const Program            program = program_of(o.image);
     const ImageResult        done    = simulate_image(scenario, program);
     const sdre::BoardResult &board   = done.board;
     const auto               metrics = sdre::measure(scenario, board.result.trace);
@@ -71,6 +99,31 @@ int run(const Options &o)
     return board.result.fault == 0 && board.findings.empty() ? sdre::exit_ok : sdre::exit_fault;
 }
 
+struct ServeOptions {
+    sdre::ServeArguments common;
+    std::string          image;
+};
+
+void declare_serve(sdre::OptionList &list, ServeOptions &o)
+{
+    sdre::declare_serve(list, o.common, shipped);
+    declare_image(list, o.image);
+}
+
+int serve(const ServeOptions &o)
+{
+    const sdre::ServeOptions s       = sdre::serve_options(o.common);
+    const sdre::Drive        drive   = sdre::served_drive(o.common, shipped);
+    const sdre::Drive        machine = s.machine.value_or(drive);
+    const Program            program = program_of(o.image);
+    sdre::Server             server(
+                    std::make_unique<ServedImage>(drive, sdre::Machine{machine, s.cogging_share},
+                                      static_cast<std::uint64_t>(o.common.seed), program),
+                    s);
+    sdre::serve(server, machine);
+    return sdre::exit_ok;
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -78,8 +131,11 @@ int main(int argc, char **argv)
     return sdre::run_tool(
         {"sdre-iss",
          "The image of the B-G431B-ESC1 with a simulated motor.",
-         {sdre::command<Options>(
-             "run", "run one scenario and print its metrics; exit code 4 when the drive faults",
-             declare, run, "sdre-iss run speed_step.toml --image sdre_stm32g431.elf")}},
+         {sdre::command<RunOptions>(
+              "run", "run one scenario and print its metrics; exit code 4 when the drive faults",
+              declare_run, run, "sdre-iss run speed_step.toml --image sdre_stm32g431.elf"),
+          sdre::command<ServeOptions>(
+              "serve", "a drive to connect to: the image and a motor, in real time if it can",
+              declare_serve, serve, "sdre-iss serve --tcp 1502")}},
         argc, argv);
 }

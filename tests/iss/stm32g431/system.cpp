@@ -78,6 +78,11 @@ void Rcc::note_reset(std::uint32_t cause)
     causes_ |= cause;
 }
 
+void Rcc::lose_power()
+{
+    causes_ = 0;
+}
+
 void Rcc::break_crystal()
 {
     broken_ = true;

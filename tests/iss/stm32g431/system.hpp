@@ -16,6 +16,7 @@ public:
     bool stop_crystal();
     void reset() override;
     void note_reset(std::uint32_t cause); ///< bit of CSR
+    void lose_power();                    ///< which forgets the causes
 
 protected:
     void on_write(std::uint32_t offset, std::uint32_t value) override;
