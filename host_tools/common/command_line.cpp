@@ -159,6 +159,27 @@ void OptionList::exclude(const std::string &name, const std::string &other)
     app_->get_option(name)->excludes(app_->get_option(other));
 }
 
+std::vector<std::string> OptionList::given(const std::string &except) const
+{
+    std::vector<std::string> all;
+    for (const CLI::Option *const option : app_->get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || name == except) {
+            continue;
+        }
+        const bool is_flag = option->get_expected_min() == 0;
+        for (const std::string &value : option->results()) {
+            if (!option->get_positional()) {
+                all.push_back(name);
+            }
+            if (!is_flag) {
+                all.push_back(value);
+            }
+        }
+    }
+    return all;
+}
+
 int run_tool(const Tool &tool, int argc, char **argv)
 {
     try {

@@ -40,6 +40,8 @@ public:
                   const std::string &help);
     /// The two must not be given together.
     void exclude(const std::string &name, const std::string &other);
+    /// After the command line is read: what was given, as a command line, but the option `except`.
+    std::vector<std::string> given(const std::string &except) const;
 
 private:
     CLI::App *app_;

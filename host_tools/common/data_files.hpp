@@ -11,4 +11,7 @@ namespace sdre {
 /// An installed tool finds it in share/sdre-drive beside its bin/, a built one in the sources that it was built of.
 std::filesystem::path data_file(const std::string &path);
 
+/// Where the running program is.
+std::filesystem::path program_directory();
+
 } // namespace sdre

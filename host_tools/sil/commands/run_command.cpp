@@ -7,6 +7,7 @@
 #include "common/file_output.hpp"
 #include "sil/board/board_run.hpp"
 #include "sil/commands/commands.hpp"
+#include "sil/commands/image_program.hpp"
 #include "sil/eval/plot.hpp"
 #include "sil/eval/results.hpp"
 #include "sil/eval/seeds.hpp"
@@ -22,9 +23,9 @@ struct Options {
     std::string json;
     std::string plot;
     std::string spectrum;
-    std::string board;
     int         seed  = 0; ///< 0: the scenario's
     int         seeds = 0; ///< 0: one run
+    BoardOption board;
 };
 
 void declare(OptionList &list, Options &o)
@@ -41,9 +42,10 @@ void declare(OptionList &list, Options &o)
     list.number("--seeds", o.seeds, {1, 100000},
                 "run seeds 1 .. N and report worst and mean; CSV and plot are of seed 1");
     list.exclude("--seeds", "--seed");
-    list.choice("--board", o.board, {"api", "f28335"},
-                "run the application too: api (on board.h) or f28335 (with the drivers, on a "
-                "virtual device)");
+    declare_board(
+        list, o.board, {"api", "f28335", board_with_image},
+        "run the application too: api (on board.h), f28335 (with the drivers, on a "
+        "virtual device) or stm32g431 (its image on a simulator, by the program sdre-iss)");
 }
 
 /// A spectrum is a table or a picture, depending on its name.
@@ -89,13 +91,13 @@ void write_outputs(const Options &o, const Scenario &scenario, const Trace &trac
 
 BoardKind kind_of(const Options &o)
 {
-    return o.board == "api" ? BoardKind::api : BoardKind::f28335;
+    return o.board.name == "api" ? BoardKind::api : BoardKind::f28335;
 }
 
 /// Output of a run on a board, beside its metrics.
 std::string board_text(const Options &o, const BoardResult &run)
 {
-    std::string s = fmt::format("board: {}\n", o.board);
+    std::string s = fmt::format("board: {}\n", o.board.name);
     for (const std::string &note : run.notes) {
         s += fmt::format("note: {}\n", note);
     }
@@ -110,7 +112,7 @@ int run_many_seeds(const Options &o, const Scenario &scenario)
     // A process has one set of firmware variables: on a board the seeds run one after the other.
     BoardResult    board; // of seed 1, with the findings of all
     const SeedRuns runs =
-        o.board.empty()
+        o.board.name.empty()
             ? run_seeds(scenario, o.seeds)
             : run_seeds_in_turn(scenario, o.seeds, [&](const Scenario &s, const Controller &c) {
                   BoardResult one = simulate_on_board(s, kind_of(o), c);
@@ -123,27 +125,32 @@ int run_many_seeds(const Options &o, const Scenario &scenario)
                   return one.result;
               });
     write_outputs(o, scenario, runs.first.trace, seeds_json(scenario, runs));
-    fmt::print("{}{}", o.board.empty() ? "" : board_text(o, board), seeds_text(scenario, runs));
+    fmt::print("{}{}", o.board.name.empty() ? "" : board_text(o, board),
+               seeds_text(scenario, runs));
     return runs.faults == 0 && board.findings.empty() ? exit_ok : exit_fault;
 }
 
 int run_once(const Options &o, const Scenario &scenario)
 {
     BoardResult run;
-    if (o.board.empty()) {
+    if (o.board.name.empty()) {
         run.result = simulate(scenario);
     } else {
         run = simulate_on_board(scenario, kind_of(o));
     }
     const std::vector<Metrics> metrics = measure(scenario, run.result.trace);
     write_outputs(o, scenario, run.result.trace, result_json(scenario, run.result, metrics));
-    fmt::print("{}{}", o.board.empty() ? "" : board_text(o, run),
+    fmt::print("{}{}", o.board.name.empty() ? "" : board_text(o, run),
                result_text(scenario, run.result, metrics));
     return run.result.fault == 0 && run.findings.empty() ? exit_ok : exit_fault;
 }
 
 int run(const Options &o)
 {
+    if (o.board.name == board_with_image) {
+        run_image_program("run", o.board.others());
+    }
+    require_no_image(o.board);
     require_outputs(o);
     Scenario scenario = read_scenario_file(o.scenario, o.drive);
     if (o.seeds > 0) {
