@@ -10,8 +10,8 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <modbus.h>
 
+#include "../support/libmodbus_client.hpp"
 #include "../support/temp_dir.hpp"
 #include "common/errors.hpp"
 #include "sil/serve/boot_rom.hpp"
@@ -26,6 +26,7 @@ extern "C" {
 }
 
 using namespace sdre;
+using support::Client;
 
 namespace {
 
@@ -56,58 +57,6 @@ public:
 private:
     Server      server_;
     std::thread thread_;
-};
-
-class Client {
-public:
-    explicit Client(modbus_t *m) : m_(m)
-    {
-        modbus_set_slave(m_, 1);
-        modbus_set_response_timeout(m_, 5, 0); // a sanitized build on a busy machine
-        EXPECT_EQ(modbus_connect(m_), 0) << modbus_strerror(errno);
-    }
-    ~Client()
-    {
-        modbus_close(m_);
-        modbus_free(m_);
-    }
-    Client(const Client &)            = delete;
-    Client &operator=(const Client &) = delete;
-
-    int input(int address)
-    {
-        std::uint16_t value = 0;
-        EXPECT_EQ(modbus_read_input_registers(m_, address, 1, &value), 1) << modbus_strerror(errno);
-        return value;
-    }
-    int try_write(int address, int value)
-    {
-        return modbus_write_register(m_, address, static_cast<std::uint16_t>(value));
-    }
-    void write(int address, int value)
-    {
-        EXPECT_EQ(try_write(address, value), 1) << modbus_strerror(errno);
-    }
-    /// 32 bits, the high word first.
-    int try_write_both(int address, std::uint32_t value)
-    {
-        const std::array<std::uint16_t, 2> words{static_cast<std::uint16_t>(value >> 16U),
-                                                 static_cast<std::uint16_t>(value & 0xFFFFU)};
-        return modbus_write_registers(m_, address, 2, words.data());
-    }
-    /// Polls, which keeps the drive running, until the register has the value.
-    bool reaches(int address, const std::function<bool(int)> &wanted)
-    {
-        for (int n = 0; n < 2000; n++) {
-            if (wanted(input(address))) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-private:
-    modbus_t *m_;
 };
 
 bool is_ready(int mode)

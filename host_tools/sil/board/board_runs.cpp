@@ -41,9 +41,10 @@ void require_f28335(const Drive &drive)
 {
     const Processor &p = processor_of(drive);
     if (p.name != "f28335") {
-        throw InputError(fmt::format("{}: the virtual F28335 cannot be the {} of board \"{}\"; "
-                                     "sdre-sil run has --board api",
-                                     drive.name, p.name, drive.board.file->name));
+        throw InputError(
+            fmt::format("{}: the virtual F28335 cannot be the {} of board \"{}\"; "
+                        "--board {} runs its image, \"run --board api\" the application",
+                        drive.name, p.name, drive.board.file->name, p.name));
     }
 }
 

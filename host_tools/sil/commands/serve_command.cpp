@@ -27,13 +27,10 @@ struct Options {
     bool           boot_rom = false;
 };
 
-/// What the simulated STM32G431 does not have, by its options.
-constexpr std::pair<const char *, const char *> of_f28335[] = {{"--slcan-tcp", "a CAN bus"},
-                                                               {"--slcan-pty", "a CAN bus"},
-                                                               {"--join", "a CAN bus"},
-                                                               {"--node", "a CAN bus"},
-                                                               {"--flash", "a file for its flash"},
-                                                               {"--boot-rom", "a boot ROM"}};
+/// Options of the virtual F28335 alone, and what the simulation of the other board lacks for them.
+constexpr std::pair<const char *, const char *> of_f28335[] = {
+    {"--slcan-tcp", "CAN bus"}, {"--slcan-pty", "CAN bus"}, {"--join", "CAN bus"},
+    {"--node", "CAN bus"},      {"--flash", "kept flash"},  {"--boot-rom", "boot ROM"}};
 
 void declare(OptionList &list, Options &o)
 {
@@ -60,8 +57,8 @@ void serve_image(const Options &o)
     for (const auto &[option, what] : of_f28335) {
         if (std::find(given.begin(), given.end(), option) != given.end()) {
             throw InputError(
-                fmt::format("{}: is not for --board {}, which has no {} here; leave it out", option,
-                            board_with_image, what));
+                fmt::format("{}: is not for --board {}, whose simulation has no {}; leave it out",
+                            option, board_with_image, what));
         }
     }
     run_image_program("serve", given);

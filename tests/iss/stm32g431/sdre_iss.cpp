@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "sil/commands/commands.hpp"
+#include "sil/eval/plot.hpp"
 #include "sil/eval/results.hpp"
 #include "sil/serve/serve_arguments.hpp"
 #include "stm32g431/cycle_meter.hpp"
@@ -49,6 +50,7 @@ struct RunOptions {
     std::string image;
     std::string csv;
     std::string json;
+    std::string plot;
     int         seed      = 0; ///< 0: the scenario's
     bool        functions = false;
 };
@@ -60,12 +62,16 @@ void declare_run(sdre::OptionList &list, RunOptions &o)
     declare_image(list, o.image);
     list.text("--csv", o.csv, "write the trace, one row per control period");
     list.text("--json", o.json, "write the metrics");
+    list.text("--plot", o.plot, "draw the trace (.png or .svg)");
     list.number("--seed", o.seed, {1, 2147483647}, "seed of the noise");
     list.flag("--functions", o.functions, "print where the control interrupt spends its cycles");
 }
 
 int run(const RunOptions &o)
 {
+    if (!o.plot.empty()) {
+        sdre::require_plot(o.plot);
+    }
     sdre::Scenario scenario = sdre::read_scenario_file(o.scenario, o.drive);
     if (o.seed > 0) {
         scenario.seed = static_cast<std::uint64_t>(o.seed);
@@ -81,6 +87,10 @@ int run(const RunOptions &o)
     }
     if (!o.json.empty()) {
         files.push_back({o.json, sdre::result_json(scenario, board.result, metrics)});
+    }
+    if (!o.plot.empty()) {
+        files.push_back(
+            {o.plot, sdre::trace_picture(scenario, board.result.trace, scenario.name, o.plot)});
     }
     sdre::write_files(files);
     fmt::print("board: stm32g431, the image\n");
