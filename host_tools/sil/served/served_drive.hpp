@@ -35,7 +35,7 @@ public:
     ServedDrive &operator=(const ServedDrive &) = delete;
     virtual ~ServedDrive()                      = default;
 
-    /// What runs the firmware, as "the virtual F28335".
+    /// The name of the device that runs the firmware, as "the virtual F28335".
     virtual std::string board() const       = 0;
     virtual Connections connections() const = 0;
 
@@ -136,7 +136,7 @@ protected:
     {
         return bench_;
     }
-    /// What the dynamometer does to the shaft in the next period.
+    /// The dynamometer's torque for the next period.
     void set_load();
     /// A reset has ended the faults of the processor.
     void forget_processor_faults();
