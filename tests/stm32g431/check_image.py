@@ -112,11 +112,18 @@ def memory(octets, sections, symbols):
     used = sum(
         size
         for name, (size, _) in sections.items()
-        if name in (".stack", ".data", ".bss", ".noinit")
+        if name in (".ccm", ".stack", ".data", ".bss", ".noinit")
     )
+    code, _ = sections[".ccm"]
     print(f"flash {len(octets)} of {FLASH_octets} octets, {100 * len(octets) / FLASH_octets:.1f} %")
-    print(f"RAM {used} of {RAM_octets} octets, {100 * used / RAM_octets:.1f} %")
+    print(
+        f"RAM {used} of {RAM_octets} octets, {100 * used / RAM_octets:.1f} %, "
+        f"{code} of them code of the tick"
+    )
     wrong = []
+    law = symbols["step"] - symbols["image_ccm"]
+    if law not in range(code):
+        wrong.append("the law is not in the CCM SRAM")
     if used > RAM_most * RAM_octets:
         wrong.append("the RAM is too full")
     if symbols["image_guard"] % 32 != 0 or symbols["image_stack"] - symbols["image_guard"] != 32:

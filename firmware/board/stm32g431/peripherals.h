@@ -58,6 +58,9 @@ void trip_check(void);           /**< enables requested gates. Context: start of
 void trip_latch(uint16_t fault); /**< latches it, opens the bridge. Context: init, control ISR */
 void trip_overdue(void);         /**< the same for an overrun. Context: SysTick */
 
+/** From here on nothing writes the code in the CCM SRAM, until the next reset. */
+void memory_protect_code(void);
+
 void cycles_init(void);
 void cycles_wait(uint32_t cycles);
 

@@ -131,11 +131,13 @@ typedef struct {
 typedef struct {
     reg_t reserved_0x00[7];
     reg_t CFGR2;
+    reg_t SWPR;
 } syscfg_t;
 
 #define SYSCFG_CFGR2_CLL  (1UL << 0U)
 #define SYSCFG_CFGR2_SPL  (1UL << 1U)
 #define SYSCFG_CFGR2_ECCL (1UL << 3U)
+#define SYSCFG_SWPR_PAGES 0x3FFUL /**< 1 KB of the CCM SRAM each */
 
 /** TIM1, TIM2 and TIM4: the same places, of which each timer has a part. */
 typedef struct {

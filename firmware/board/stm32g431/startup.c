@@ -7,6 +7,9 @@
 extern uint32_t       image_guard[];
 extern uint32_t       image_stack[];
 extern uint32_t       image_stack_top[];
+extern uint32_t       image_ccm[];
+extern uint32_t       image_ccm_end[];
+extern const uint32_t image_ccm_load[];
 extern uint32_t       image_data[];
 extern uint32_t       image_data_end[];
 extern const uint32_t image_data_load[];
@@ -35,14 +38,20 @@ static void fill_stack(void)
     }
 }
 
-static void fill_memory(void)
+static void copy(const uint32_t *from, uint32_t *to, const uint32_t *end)
 {
-    const uint32_t *from = image_data_load;
-
-    for (uint32_t *to = image_data; to < image_data_end; to++) {
+    while (to < end) {
         *to = *from;
         from++;
+        to++;
     }
+}
+
+static void fill_memory(void)
+{
+    copy(image_ccm_load, image_ccm, image_ccm_end);
+    memory_protect_code();
+    copy(image_data_load, image_data, image_data_end);
     for (uint32_t *to = image_bss; to < image_bss_end; to++) {
         *to = 0UL;
     }

@@ -25,6 +25,12 @@
 #define CTL_PART
 #endif
 
+/* Linkage of functions that the tick calls in few samples. It is empty on most targets. Where only
+ * a part of the tick has room in the memory without waits (board/stm32g431), they stay outside. */
+#ifndef CTL_RARE
+#define CTL_RARE
+#endif
+
 /** Vector in the rotor frame; d is the magnet axis. */
 typedef struct {
     float d;

@@ -84,8 +84,9 @@ static void correct_by_currents(nodo_t *x, float *theta_rad, const nodo_current_
     *theta_rad = frames_wrap(*theta_rad + theta);
 }
 
-bool nodo_current_correct(nodo_current_t *s, nodo_t *x, float *theta_rad,
-                          const nodo_current_gains_t *g, const motor_reduced_t *m, dq_t i_A)
+CTL_RARE bool nodo_current_correct(nodo_current_t *s, nodo_t *x, float *theta_rad,
+                                   const nodo_current_gains_t *g, const motor_reduced_t *m,
+                                   dq_t i_A)
 {
     if (!(s->least_e_radps > 0.0f)) {
         begin_without(s, x, g, m);

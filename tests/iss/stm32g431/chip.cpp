@@ -79,6 +79,7 @@ Chip::Chip(const ElfImage &image, Circuit &circuit) : circuit_(circuit)
 {
     core_.add_guarded_memory(flash_base, flash_octets, flash_);
     core_.add_memory(ram_base, ram_octets, true);
+    core_.add_guarded_memory(ccm_base, ccm_octets, ccm_);
     connect();
     core_.set_octets(flash_base, std::vector<std::uint8_t>(flash_octets, 0xFFU));
     core_.load(image);

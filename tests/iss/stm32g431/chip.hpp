@@ -68,6 +68,11 @@ public:
     {
         return timer_.written_cnt();
     }
+    /// One bit for each page of the CCM SRAM.
+    std::uint32_t protected_pages() const
+    {
+        return ccm_.protected_pages();
+    }
     bool light() const
     {
         return port_c_.output(6);
@@ -138,6 +143,7 @@ private:
     Gpio          port_b_{core_, "GPIOB"};
     Gpio          port_c_{core_, "GPIOC"};
     Registers     analog_{core_, "SYSCFG", 0x400}; // SYSCFG, comparators, amplifiers
+    CcmMemory     ccm_{core_, analog_};
     Registers     dac_{core_, "DAC3", 0x400};
     PwmTimer      timer_{core_, {&port_a_, &port_b_, &port_c_}};
     EncoderTimer  encoder_{core_, port_b_};

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "stm32g431/flash.hpp"
+
 namespace iss::stm32g431 {
 namespace {
 
@@ -32,6 +34,9 @@ bool FlashWaits::keep(std::uint32_t line)
 
 void FlashWaits::block(std::uint32_t address, std::uint32_t octets, const BlockCost &cost)
 {
+    if (address < flash_base || address - flash_base >= flash_octets) {
+        return; // code in the CCM SRAM
+    }
     const std::uint32_t first = address / line_octets;
     const std::uint32_t last  = (address + octets - 1U) / line_octets;
     const double        each  = static_cast<double>(cost.cycles) / (last - first + 1U);

@@ -29,7 +29,8 @@ enum {
     NO_PLL,
     NOWHERE,
     WATCHDOG_KEY,
-    NOT_SERVED
+    NOT_SERVED,
+    CODE_WRITTEN
 };
 
 extern uint32_t stack_top;
@@ -182,6 +183,13 @@ void start(void)
         IWDG(0U) = 0xCCCCUL;
         IWDG(0U) = 0x5555UL;
         IWDG(8U) = 34UL;
+        break;
+    case CODE_WRITTEN:
+        WORD(0x10001000UL) = 1UL;
+        WORD(0x40010020UL) = 1UL << 4U;
+        WORD(0x10000FFCUL) = 1UL;
+        WORD(0x10001400UL) = 1UL;
+        WORD(0x100013FCUL) = 2UL;
         break;
     default:
         break;

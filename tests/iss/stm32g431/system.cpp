@@ -161,6 +161,16 @@ void Gpio::on_write(std::uint32_t offset, std::uint32_t value)
     }
 }
 
+void CcmMemory::before_write(std::uint32_t address, unsigned octets, std::uint32_t value)
+{
+    (void)octets;
+    (void)value;
+    const std::uint32_t page = (address - ccm_base) / 1024U;
+    if ((protected_pages() >> page & 1U) != 0U) {
+        core_.find("SYSCFG: a protected page of the CCM SRAM is written, at " + hex(address));
+    }
+}
+
 Watchdog::Watchdog(Core &core) : Registers(core, "IWDG", 0x400) {}
 
 void Watchdog::reset()

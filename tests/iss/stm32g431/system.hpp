@@ -43,6 +43,24 @@ private:
     std::uint32_t outside_ = 0xFFFF;
 };
 
+/// CCM SRAM by its own address. SYSCFG_SWPR protects pages of 1 KB against writing, until the next reset.
+class CcmMemory : public MemoryGuard {
+public:
+    CcmMemory(Core &core, const Registers &syscfg) : core_(core), syscfg_(syscfg) {}
+    void before_write(std::uint32_t address, unsigned octets, std::uint32_t value) override;
+    std::uint32_t protected_pages() const ///< one bit for each
+    {
+        return syscfg_.at(0x20);
+    }
+
+private:
+    Core            &core_;
+    const Registers &syscfg_;
+};
+
+constexpr std::uint32_t ccm_base   = 0x10000000;
+constexpr std::uint32_t ccm_octets = 0x3000; // 10 KB, and what makes it a multiple of 4 KB
+
 class Watchdog : public Registers {
 public:
     explicit Watchdog(Core &core);

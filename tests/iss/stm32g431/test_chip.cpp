@@ -30,6 +30,7 @@ const Mistake mistakes[]{
     {"Nowhere", 11, "where no peripheral of the model is"},
     {"WatchdogKey", 12, "without its key"},
     {"NotServed", 13, "the watchdog resets"},
+    {"CodeWritten", 14, "a protected page of the CCM SRAM is written, at 100013FCh"},
 };
 
 std::vector<std::string> findings_of(std::uint32_t task)

@@ -125,6 +125,22 @@ TEST_F(IssImage, WritesItsFlashByTheLoader)
     expect_no_findings();
 }
 
+TEST_F(IssImage, CodeInTheRamIsProtectedAndComparedWithTheFlash)
+{
+    chip.run_for(ready_s);
+    const std::uint32_t first = image.symbols.at("image_ccm");
+    const std::uint32_t end   = image.symbols.at("image_ccm_end");
+    ASSERT_EQ(input(APP_REGISTERS_FAULT), APP_FAULT_NONE);
+    const std::uint32_t pages = chip.protected_pages();
+    for (std::uint32_t page = 0; page < 10; page++) { // of 1 KB
+        EXPECT_EQ(pages >> page & 1U, ccm_base + (page + 1U) * 1024U > first ? 1U : 0U) << page;
+    }
+    chip.core().set_word(end - 4U, chip.core().word(end - 4U) ^ 0x100U); // as a particle would
+    chip.run_for(0.1);
+    EXPECT_EQ(input(APP_REGISTERS_FAULT), APP_FAULT_MEMORY);
+    expect_no_findings();
+}
+
 TEST_F(IssImage, WithoutCrystalItStaysOff)
 {
     chip.break_crystal();
