@@ -14,6 +14,7 @@ constexpr std::uint32_t comparators   = 0x200;
 constexpr std::uint32_t sees          = 1U << 30U;
 
 constexpr int line_adc    = 18;
+constexpr int line_can    = 21;
 constexpr int line_serial = 38;
 
 constexpr std::uint32_t by_program  = 1U << 28U;
@@ -95,7 +96,7 @@ void Chip::connect()
     apb_.add(0x40004400, 0x400, serial_);
     apb_.add(0x40006400, 0x400, can_);
     apb_.add(0x40007000, 0x400, power_);
-    apb_.add(0x4000A400, 0x400, can_memory_);
+    apb_.add(0x4000A400, 0x400, can_.memory());
     apb_.add(0x40010000, 0x400, analog_);
     apb_.add(0x40012C00, 0x400, timer_);
     apb_.add(0x40021000, 0x400, rcc_);
@@ -115,6 +116,7 @@ void Chip::connect()
     encoder_.gate_by(rcc_, {apb1, 2});
     serial_.gate_by(rcc_, {apb1, 17});
     can_.gate_by(rcc_, {apb1, 25});
+    can_.memory().gate_by(rcc_, {apb1, 25});
     power_.gate_by(rcc_, {apb1, 28});
     analog_.gate_by(rcc_, {apb2, 0});
     timer_.gate_by(rcc_, {apb2, 11});
@@ -136,7 +138,7 @@ void Chip::reset_devices()
           static_cast<Registers *>(&port_c_), &analog_, &dac_, static_cast<Registers *>(&timer_),
           static_cast<Registers *>(&encoder_), static_cast<Registers *>(&edges_),
           static_cast<Registers *>(&adc1_), static_cast<Registers *>(&adc2_), &adc_common_,
-          static_cast<Registers *>(&serial_), &can_, &can_memory_,
+          static_cast<Registers *>(&serial_), static_cast<Registers *>(&can_),
           static_cast<Registers *>(&watchdog_)}) {
         r->reset();
     }
@@ -163,7 +165,7 @@ void Chip::power_cycle()
 
 std::uint64_t Chip::next_event()
 {
-    return std::min({timer_.next_end(), adc1_.due(), adc2_.due(), serial_.due(),
+    return std::min({timer_.next_end(), adc1_.due(), adc2_.due(), serial_.due(), can_.due(),
                      core_.exceptions().tick_due(), watchdog_.due()});
 }
 
@@ -179,6 +181,7 @@ void Chip::update_gates()
 void Chip::update_lines()
 {
     core_.exceptions().set_line(line_adc, adc1_.interrupts() || adc2_.interrupts());
+    core_.exceptions().set_line(line_can, can_.interrupts());
     core_.exceptions().set_line(line_serial, serial_.interrupts());
 }
 
@@ -215,6 +218,7 @@ void Chip::serve_events()
     if (serial_.due() <= now) {
         serial_.step();
     }
+    can_.step();
     if (core_.exceptions().tick_due() <= now) {
         core_.exceptions().tick();
     }
@@ -230,6 +234,7 @@ void Chip::run_to(std::uint64_t end)
     while (core_.cycles() < end) {
         core_.run_until(std::min(end, next_event()));
         update_gates();
+        update_lines(); // what the program has acknowledged is low, before it may be high again
         if (core_.exceptions().wants_reset()) {
             restart(by_program);
         } else if (watchdog_.is_out()) {

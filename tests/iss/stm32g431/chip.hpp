@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "stm32g431/can_module.hpp"
 #include "stm32g431/circuit.hpp"
 #include "stm32g431/converter.hpp"
 #include "stm32g431/flash.hpp"
@@ -81,6 +82,11 @@ public:
     {
         return serial_;
     }
+    /// The CAN module on this bus, which outlives the chip.
+    void connect_can(sdre::f28335::CanBus &bus)
+    {
+        can_.connect(bus);
+    }
     Core &core()
     {
         return core_;
@@ -152,8 +158,7 @@ private:
     Converter     adc2_{core_, 2};
     Registers     adc_common_{core_, "ADC12", 0x100};
     Serial        serial_{core_};
-    Registers     can_{core_, "FDCAN1", 0x400};
-    Registers     can_memory_{core_, "FDCAN memory", 0x400};
+    CanModule     can_{core_, rcc_, port_a_, port_b_, port_c_};
     Watchdog      watchdog_{core_};
     CycleCounter  counter_{core_};
     Bus           apb_{core_, 0x40000000};
