@@ -43,6 +43,7 @@ constexpr std::uint32_t entry_cycles =
     12; // ARM DDI 0439, 3.9: with memory that does not wait, as the next
 constexpr std::uint32_t exit_cycles   = 10;
 constexpr std::size_t   blocks_known  = 1U << 14U;
+constexpr std::uint32_t watched       = 4096;
 constexpr std::size_t   findings_most = 100;
 
 constexpr std::uint32_t exit_number =
@@ -106,6 +107,25 @@ void Core::add_guarded_memory(std::uint32_t base, std::uint32_t octets, MemoryGu
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above
     need(uc_hook_add(uc_, &hook, UC_HOOK_MEM_WRITE_PROT, reinterpret_cast<void *>(&on_guarded),
                      &guard, base, base + octets - 1U));
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above
+    need(uc_hook_add(uc_, &hook, UC_HOOK_MEM_READ_PROT, reinterpret_cast<void *>(&on_watched),
+                     &guard, base, base + octets - 1U));
+}
+
+void Core::watch_reads(std::uint32_t address)
+{
+    need(uc_mem_protect(uc_, address & ~(watched - 1U), watched, UC_PROT_EXEC));
+}
+
+bool Core::on_watched(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+                      std::int64_t value, void *guard)
+{
+    (void)uc;
+    (void)type;
+    (void)octets;
+    (void)value;
+    static_cast<MemoryGuard *>(guard)->before_read(static_cast<std::uint32_t>(address));
+    return true; // the library reads
 }
 
 bool Core::on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,

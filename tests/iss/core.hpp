@@ -27,6 +27,8 @@ public:
     MemoryGuard &operator=(const MemoryGuard &) = delete;
     virtual ~MemoryGuard()                      = default;
     virtual void before_write(std::uint32_t address, unsigned octets, std::uint32_t value) = 0;
+    /// Only around the addresses of watch_reads().
+    virtual void before_read(std::uint32_t address) = 0;
 };
 
 /// Told when a handler begins and ends: the way to it and back is a part of it.
@@ -59,6 +61,8 @@ public:
     void add_device(std::uint32_t base, std::uint32_t octets, Device &device);
     /// Memory of which every write is told before it happens.
     void add_guarded_memory(std::uint32_t base, std::uint32_t octets, MemoryGuard &guard);
+    /// The guard is told of reads too, from now on, in the 4 KB around this address.
+    void watch_reads(std::uint32_t address);
     /// Into memory, as a programming tool writes it.
     void load(const ElfImage &image);
     /// Stack pointer and program counter from the table of vectors.
@@ -135,6 +139,8 @@ private:
     static bool on_invalid(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *core);
     static bool on_guarded(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+                           std::int64_t value, void *guard);
+    static bool on_watched(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *guard);
     static std::uint64_t on_read(uc_engine *uc, std::uint64_t offset, unsigned octets,
                                  void *mapped);

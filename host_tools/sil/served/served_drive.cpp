@@ -92,14 +92,17 @@ Scenario bench_scenario(const Drive &drive, const Machine &bench, std::uint64_t 
     return s;
 }
 
-ServedDrive::ServedDrive(const Scenario &scenario)
-    : scenario_(scenario), bench_(scenario_, 0), dynamometer_(scenario.drive),
+ServedDrive::ServedDrive(const Scenario &scenario, long start_tick)
+    : scenario_(scenario), bench_(scenario_, start_tick), dynamometer_(scenario.drive),
       source_V_(scenario.dc_link_V)
 {
 }
 
 void ServedDrive::set_load()
 {
+    if (bench_.board() == nullptr) {
+        return; // the shaft is held
+    }
     const DynamometerTorque torque = dynamometer_.at(plant_state().omega_e_radps);
     bench_.board()->set_extra_load_Nm(torque.active_Nm);
     bench_.board()->set_extra_brake_Nm(torque.brake_Nm);

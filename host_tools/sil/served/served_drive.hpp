@@ -126,7 +126,8 @@ public:
     }
 
 protected:
-    explicit ServedDrive(const Scenario &scenario);
+    /// @param start_tick Until then the shaft is held, and passes the index: see MotorBench. 0: it is free.
+    explicit ServedDrive(const Scenario &scenario, long start_tick = 0);
 
     const Scenario &scenario() const
     {

@@ -156,6 +156,7 @@ void Chip::restart(std::uint32_t cause)
 
 void Chip::power_cycle()
 {
+    flash_.cut_power(asked_);
     anything_ = static_cast<std::uint8_t>(anything_ + 0x9DU);
     core_.set_octets(ram_base, std::vector<std::uint8_t>(ram_octets, anything_));
     rcc_.lose_power();
@@ -231,6 +232,7 @@ void Chip::run_for(double time_s)
 
 void Chip::run_to(std::uint64_t end)
 {
+    asked_ = end;
     while (core_.cycles() < end) {
         core_.run_until(std::min(end, next_event()));
         update_gates();

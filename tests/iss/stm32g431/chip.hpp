@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// An STM32G431 that runs its image in a circuit. A cycle is 1 / 170 MHz, also before the PLL runs.
 ///
-/// Not modelled: CAN, the protection of the stack, the flash's waits, parity and codes of the memories.
+/// Not modelled: CAN, the protection of the stack, the flash's waits, parity of the RAM.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ public:
     {
         return resets_;
     }
-    /// Off and on: the flash is as it was, the RAM holds anything.
+    /// Off and on. The RAM holds anything, and so does what the flash was erasing or writing.
     void power_cycle();
     /// A comparator sees too much current.
     void set_over_current(bool active);
@@ -169,6 +169,7 @@ private:
     bool          over_current_ = false; // from outside
     bool          break_        = false;
     std::uint64_t period_began_ = 0;
+    std::uint64_t asked_        = 0; // of run_to()
     int           resets_       = 0;
     std::uint8_t  anything_     = 0; // in the RAM
 };

@@ -3,10 +3,7 @@
 #pragma once
 
 #include "sil/board/board_runs.hpp"
-#include "stm32g431/chip.hpp"
-#include "stm32g431/image_bench.hpp"
-#include "stm32g431/image_memory.hpp"
-#include "stm32g431/motor_circuit.hpp"
+#include "stm32g431/image_board.hpp"
 #include "stm32g431/serial_line.hpp"
 
 namespace iss::stm32g431 {
@@ -28,11 +25,7 @@ public:
     }
     Chip &chip()
     {
-        return chip_;
-    }
-    MotorCircuit &circuit()
-    {
-        return circuit_;
+        return board_.chip;
     }
 
 private:
@@ -46,10 +39,7 @@ private:
     }
     void look();
 
-    const Program             &program_;
-    MotorCircuit               circuit_;
-    Chip                       chip_;
-    ImageMemory                memory_;
+    ImageBoard                 board_;
     SerialLine                 line_;
     sdre::f28335::ModbusMaster master_;
     std::uint64_t              period_cycles_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "stm32g431/served_image.hpp"
 
+#include <cmath>
+
 #include "common/errors.hpp"
+#include "sil/run/controller.hpp"
 #include "stm32g431/image_scenario.hpp"
 
 namespace iss::stm32g431 {
@@ -18,9 +21,10 @@ sdre::Scenario with_three_shunts(sdre::Scenario s)
 } // namespace
 
 ServedImage::ServedImage(const sdre::Drive &drive, const sdre::Machine &machine, std::uint64_t seed,
-                         const Program &program)
-    : ServedDrive(with_three_shunts(sdre::bench_scenario(drive, machine, seed))), program_(program),
-      circuit_(bench(), scenario().drive, false), chip_(program.image, circuit_)
+                         const Program &program, double held_s)
+    : ServedDrive(with_three_shunts(sdre::bench_scenario(drive, machine, seed)),
+                  std::lround(held_s / sdre::control_period_s(drive))),
+      board_(bench(), scenario().drive, program, false)
 {
     require_constants(program, drive);
     start();
@@ -28,24 +32,20 @@ ServedImage::ServedImage(const sdre::Drive &drive, const sdre::Machine &machine,
 
 void ServedImage::start()
 {
-    const double end_s = chip_.time_s() + longest_boot_s;
-    for (const long before = bench().tick(); bench().tick() == before;) {
-        if (chip_.time_s() > end_s) {
-            throw sdre::InputError("serve: the image does not start" +
-                                   (findings().empty() ? "" : ": " + findings().front()));
-        }
-        chip_.run_for(period_s());
+    if (!board_.start(longest_boot_s)) {
+        throw sdre::InputError("serve: the image does not start" +
+                               (findings().empty() ? "" : ": " + findings().front()));
     }
 }
 
 void ServedImage::period()
 {
     set_load();
-    chip_.open_home_switch(home_is_open());
-    const int before = chip_.resets();
-    chip_.run_for(period_s());
-    if (chip_.resets() != before) {
-        resets_ += chip_.resets() - before;
+    board_.chip.open_home_switch(home_is_open());
+    const int before = board_.chip.resets();
+    board_.chip.run_for(period_s());
+    if (board_.chip.resets() != before) {
+        resets_ += board_.chip.resets() - before;
         forget_processor_faults();
     }
 }
@@ -53,13 +53,13 @@ void ServedImage::period()
 void ServedImage::power_cycle()
 {
     forget_processor_faults();
-    chip_.power_cycle();
+    board_.chip.power_cycle();
     start();
 }
 
 void ServedImage::break_processor(sdre::FaultKind kind)
 {
-    break_chip(chip_, program_, kind);
+    board_.inject(kind);
 }
 
 } // namespace iss::stm32g431

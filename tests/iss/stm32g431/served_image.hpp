@@ -4,17 +4,23 @@
 #pragma once
 
 #include "sil/served/served_drive.hpp"
-#include "stm32g431/image_bench.hpp"
+#include "stm32g431/image_board.hpp"
 
 namespace iss::stm32g431 {
 
-class ServedImage final : public sdre::ServedDrive {
+class ServedImage : public sdre::ServedDrive {
 public:
     /// InputError: the image has other constants than those of the drive, or does not start.
     /// @param machine Is on the bench; the image knows the motor and disc of `drive`.
+    /// @param held_s  Until then the shaft is held, and passes the index: the drive needs no alignment.
     ServedImage(const sdre::Drive &drive, const sdre::Machine &machine, std::uint64_t seed,
-                const Program &program);
+                const Program &program, double held_s = 0.0);
 
+    using ServedDrive::bench;
+    ImageBoard &image()
+    {
+        return board_;
+    }
     std::string board() const override
     {
         return "the simulated B-G431B-ESC1";
@@ -27,15 +33,15 @@ public:
     void   power_cycle() override;
     double time_s() const override
     {
-        return chip_.time_s();
+        return board_.chip.time_s();
     }
     void send(std::uint8_t octet) override
     {
-        chip_.serial().send(octet);
+        board_.chip.serial().send(octet);
     }
     int take() override
     {
-        return chip_.serial().take();
+        return board_.chip.serial().take();
     }
     int resets() const override
     {
@@ -43,17 +49,15 @@ public:
     }
     std::vector<std::string> findings() const override
     {
-        return chip_.core().findings();
+        return board_.chip.core().findings();
     }
 
 private:
     void start();
     void break_processor(sdre::FaultKind kind) override;
 
-    const Program &program_;
-    MotorCircuit   circuit_;
-    Chip           chip_;
-    int            resets_ = 0;
+    ImageBoard board_;
+    int        resets_ = 0;
 };
 
 } // namespace iss::stm32g431

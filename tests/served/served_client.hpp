@@ -4,19 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "drive/drive_file.hpp"
 #include "modbus_pdu.hpp"
+#include "served_board.hpp"
 #include "sil/served/rtu_frame.hpp"
-#include "sil/served/served_f28335.hpp"
 
 namespace sdre {
 
 using Words = std::vector<std::uint16_t>;
-
-inline Drive shipped_drive()
-{
-    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
-}
 
 class ServedClient : public testing::Test {
 protected:
@@ -84,7 +78,7 @@ protected:
     virtual void after_period() {}
 
     std::uint8_t unit = 1;
-    ServedF28335 served{shipped_drive(), 1};
+    ServedBoard  served{shipped_drive(), 1};
 };
 
 } // namespace sdre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cyclic velocity over Modbus on the virtual device; simulated time only. A master sends set-points
+// Cyclic velocity over Modbus; simulated time only. A master sends set-points
 // of a sine; the speed is the shaft's own.
 #include <gtest/gtest.h>
 

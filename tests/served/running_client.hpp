@@ -2,6 +2,7 @@
 /// A client that runs the served drive in a mode of operation.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "served_client.hpp"
@@ -30,6 +31,14 @@ protected:
     bool has(int bit)
     {
         return (input(APP_REGISTERS_STATUSWORD) & bit) != 0;
+    }
+    /// Asks ten times a second and more, so that the drive goes on.
+    void talk(double length_s)
+    {
+        for (const double end_s = served.time_s() + length_s; served.time_s() < end_s;) {
+            pass(std::min(0.05, end_s - served.time_s()));
+            input(APP_REGISTERS_MODE);
+        }
     }
     /// From power-up to a run.
     void enable(int mode_of_operation)

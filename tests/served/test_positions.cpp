@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Profile position over Modbus on the virtual device; simulated time only.
+// Profile position over Modbus; simulated time only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,20 +12,23 @@ namespace {
 
 constexpr int within_cnt = 4; // the window of target reached; a shaft at rest hunts by two
 
-class Positions : public PositionClient {};
+class Positions : public PositionClient {
+protected:
+    const Motor &motor = served.drive().motor;
+};
 
 } // namespace
 
 TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
 {
     hold();
-    const int    begin   = now();
-    const double start_e = served.plant_state().theta_e_rad;
+    const int    begin = now();
+    const double from  = served.turns();
     set_point(begin + 3 * counts_per_turn, 0);
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
     EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
-    EXPECT_NEAR(served.plant_state().theta_e_rad - start_e, 3 * 2 * 2 * std::acos(-1.0), 7e-3);
-    served.dynamometer().drive(0.75);
+    EXPECT_NEAR(served.turns() - from, 3.0, 5.5 / counts_per_turn);
+    served.dynamometer().drive(0.5 * motor.rated_torque_Nm);
     talk(0.3);
     EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
     EXPECT_TRUE(served.findings().empty());
@@ -58,8 +61,10 @@ TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
 {
     hold();
     const int begin = now();
-    ASSERT_TRUE(write(APP_REGISTERS_MAX_CURRENT, {0, 1500})); // below what the load takes
-    served.dynamometer().drive(-1.2);
+    // below what the load takes
+    ASSERT_TRUE(
+        write_two(APP_REGISTERS_MAX_CURRENT, static_cast<int>(375.0 * motor.max_current_A)));
+    served.dynamometer().drive(-0.8 * motor.rated_torque_Nm);
     set_point(4 * counts_per_turn, APP_CONTROL_RELATIVE);
     EXPECT_TRUE(wait_for(APP_REGISTERS_FOLLOWING_ERROR, 0.2));
     served.dynamometer().drive(0.0);
@@ -79,9 +84,7 @@ TEST_F(Positions, TheZeroIsTheIndexMark)
     ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s));
     talk(0.1);
-    const double turns = served.plant_state().theta_e_rad / (2 * std::acos(-1.0)) /
-                         2; // the mark is the shaft's zero
     const double from = static_cast<double>(now()) / counts_per_turn;
-    EXPECT_NEAR(std::remainder(turns - from, 1.0) * counts_per_turn, 0.5,
-                2.0); // a count is named by its middle
+    // The mark is the shaft's zero, and a count is named by its middle.
+    EXPECT_NEAR(std::remainder(served.turns() - from, 1.0) * counts_per_turn, 0.5, 2.0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The torque modes over Modbus on the virtual device; simulated time only. The torque is the
+// The torque modes over Modbus; simulated time only. The torque is the
 // machine's own.
 #include <gtest/gtest.h>
 
@@ -44,14 +44,6 @@ protected:
     {
         for (const unsigned ramp : {APP_REGISTERS_ACCELERATION, APP_REGISTERS_DECELERATION}) {
             ASSERT_TRUE(write_two(ramp, e_radps2));
-        }
-    }
-    /// Talks, so that the drive goes on.
-    void talk(double length_s)
-    {
-        for (const double end_s = served.time_s() + length_s; served.time_s() < end_s;) {
-            pass(std::min(0.05, end_s - served.time_s()));
-            input(APP_REGISTERS_MODE);
         }
     }
     /// Mean torque of a window that begins at this time.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cyclic position over Modbus on the virtual device; simulated time only. A master sends set-points
+// Cyclic position over Modbus; simulated time only. A master sends set-points
 // of a sine; the position is the shaft's own.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters over power and over restarts, and the serial line that they ask for, on the virtual device.
+// Parameters over power and over restarts, and the serial line that they ask for.
 #include <gtest/gtest.h>
 
 #include "served_client.hpp"

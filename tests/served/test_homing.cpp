@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Homing and limit switches of an axis on the virtual device. The index mark is the zero of the bench's turns.
+// Homing and limit switches of an axis. The index mark is the zero of the bench's turns.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -6,8 +6,6 @@
 
 namespace sdre {
 
-constexpr int counts_per_turn = 10000;
-
 class PositionClient : public RunningClient {
 protected:
     int both(unsigned number)
@@ -40,13 +38,6 @@ protected:
             found = has(bit);
         }
         return found;
-    }
-    void talk(double length_s)
-    {
-        for (const double end_s = served.time_s() + length_s; served.time_s() < end_s;) {
-            pass(0.05);
-            input(APP_REGISTERS_MODE);
-        }
     }
     void hold()
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Position units, polarity and limits of position on the virtual device.
+// Position units, polarity and limits of position.
 #include <gtest/gtest.h>
 
 #include <cmath>
