@@ -78,6 +78,10 @@ public:
     {
         return port_c_.output(6);
     }
+    const Flash &flash() const
+    {
+        return flash_;
+    }
     Serial &serial()
     {
         return serial_;

@@ -73,6 +73,7 @@ void Flash::before_read(std::uint32_t address)
 {
     const std::uint32_t at_grain = address & ~(grain - 1U);
     if (torn_.count(at_grain) != 0U) {
+        torn_reads_++;
         at(eccr) = beyond | (at_grain - flash_base);
         core().exceptions().pend(exception_nmi);
         core().stop();

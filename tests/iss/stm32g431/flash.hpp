@@ -24,10 +24,13 @@ public:
     /// The power fails at this cycle. Each 64 bits that are erased or written then have what was there, what was to come, or
     /// bits beyond correction.
     void cut_power(std::uint64_t cycle);
-    /// 64 bits beyond correction
-    const std::set<std::uint32_t> &torn() const
+    std::size_t torn() const ///< 64 bits beyond correction
     {
-        return torn_;
+        return torn_.size();
+    }
+    int torn_reads() const ///< since the start
+    {
+        return torn_reads_;
     }
 
 protected:
@@ -45,6 +48,7 @@ private:
     std::vector<std::uint8_t> before_;      // its octets
     std::uint64_t             ends_ = 0;    // at this cycle
     std::set<std::uint32_t>   torn_;
+    int                       torn_reads_ = 0;
     std::mt19937              random_;
 };
 

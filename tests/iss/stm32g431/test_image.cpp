@@ -25,6 +25,7 @@ using sdre::Octets;
 constexpr double answer_s = 0.1;
 constexpr double step_s   = 5e-4;
 constexpr double ready_s  = 0.4; // boot 50 ms, offsets of the sensors 256 ms
+constexpr double cut_step_s = 20e-6;
 
 class IssImage : public ::testing::Test {
 protected:
@@ -58,6 +59,20 @@ protected:
     {
         return support::is_written(ask(support::write_pdu(first, words)));
     }
+    int window()
+    {
+        return support::value_of(ask(support::read_pdu(3, APP_REGISTERS_SPEED_WINDOW)));
+    }
+    /// Asks until the drive takes it: it has to be ready.
+    void store_window(int tenths)
+    {
+        ASSERT_TRUE(write(APP_REGISTERS_SPEED_WINDOW, {static_cast<std::uint16_t>(tenths)}));
+        bool taken = false;
+        for (int n = 0; n < 20 && !taken; n++) {
+            taken = write(APP_REGISTERS_STORE_PARAMETERS, {0x6576, 0x6173});
+        }
+        ASSERT_TRUE(taken);
+    }
     int loader(unsigned number)
     {
         return input(APP_LOADER_FIRST + number);
@@ -67,6 +82,42 @@ protected:
         ASSERT_TRUE(write(APP_LOADER_FIRST, {APP_LOADER_ENTER}));
         chip.run_for(0.1);
         ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_IDLE);
+    }
+    /// Cuts the power so long after the restart that stores a window, each time another one.
+    void cut(const std::vector<double> &after_s)
+    {
+        chip.run_for(ready_s);
+        store_window(100);
+        chip.run_for(0.2);
+        ASSERT_EQ(window(), 100);
+        int before = 100;
+        int taken  = 0;
+        int torn   = 0;
+        for (const double at_s : after_s) {
+            const int next   = before + 1;
+            const int resets = chip.resets();
+            store_window(next);
+            while (chip.resets() == resets) {
+                chip.run_for(cut_step_s);
+            }
+            chip.run_for(at_s);
+            chip.power_cycle();
+            torn += chip.flash().torn() > 0 ? 1 : 0;
+            chip.run_for(ready_s);
+            const int now = window();
+            ASSERT_TRUE(now == before || now == next) << now << " after " << at_s;
+            EXPECT_EQ(input(APP_REGISTERS_PARAMETERS_STATE), 1) << at_s;
+            EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_READY) << at_s;
+            EXPECT_EQ(chip.resets(), 0) << at_s;
+            taken += now == next ? 1 : 0;
+            before = now;
+        }
+        std::printf("%zu cuts: %d left the new ones, %d bits beyond correction, %d reads of these\n",
+                    after_s.size(), taken, torn, chip.flash().torn_reads());
+        EXPECT_GE(taken, 1);
+        EXPECT_GE(torn, 2);
+        EXPECT_GE(chip.flash().torn_reads(), 1) << "each is an NMI";
+        expect_no_findings();
     }
     void expect_no_findings()
     {
@@ -139,6 +190,20 @@ TEST_F(IssImage, CodeInTheRamIsProtectedAndComparedWithTheFlash)
     chip.run_for(0.1);
     EXPECT_EQ(input(APP_REGISTERS_FAULT), APP_FAULT_MEMORY);
     expect_no_findings();
+}
+
+TEST_F(IssImage, APowerCutLeavesTheOldParametersOrTheNewOnes)
+{
+    cut({1e-3, 2e-3, 3e-3, 4e-3, 30e-3, 45.0e-3, 50e-3}); // first page, second page, content, too late
+}
+
+TEST_F(IssImage, APowerCutInEachWriteLeavesTheOldParametersOrTheNewOnes)
+{
+    std::vector<double> after_s; // 64 bits take 82 us
+    for (double at_s = 44.3e-3; at_s < 50e-3; at_s += 0.24e-3) {
+        after_s.push_back(at_s);
+    }
+    cut(after_s);
 }
 
 TEST_F(IssImage, WithoutCrystalItStaysOff)
