@@ -110,6 +110,7 @@ public:
     }
     /// Removes all injected faults.
     void mend();
+    void apply(const PlantChange &change);
 
     PlantState plant_state() const;
     /// The motor turns half an electrical turn or more per control period, or its state is not a
@@ -127,7 +128,6 @@ public:
     }
 
 private:
-    void           apply(const PlantChange &change);
     void           begin_faults();
     void           update_motor();
     void           configure_inverter();

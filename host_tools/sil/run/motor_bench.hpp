@@ -29,6 +29,9 @@ public:
     /// Opens or frees legs, this long after the tick.
     void set_legs(const std::array<bool, 3> &enabled, double into_period_s);
 
+    /// The motor is this long after the tick; it has started.
+    void advance_to(double into_period_s);
+
     /// The holding brake's output, this long after the tick.
     void set_brake(bool released, double into_period_s);
     /// The chopper's output, likewise.
@@ -97,7 +100,6 @@ public:
 private:
     double held_theta_e_rad(long tick) const;
     void   hold();
-    void   advance_to(double into_period_s);
 
     Scenario                 scenario_;
     double                   period_s_;

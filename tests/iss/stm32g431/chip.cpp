@@ -10,8 +10,14 @@ constexpr std::uint32_t ram_base   = 0x20000000;
 constexpr std::uint32_t ram_octets = 0x8000;
 
 constexpr std::uint32_t cycle_counter = 4; // of the watch unit
-constexpr std::uint32_t comparators   = 0x200;
-constexpr std::uint32_t sees          = 1U << 30U;
+
+// SYSCFG's block has the comparators; those of a, b and c.
+constexpr std::array<std::uint32_t, 3> comparators{0x200, 0x204, 0x20C};
+constexpr std::uint32_t                sees        = 1U << 30U;
+constexpr std::uint32_t                inverted    = 1U << 15U;
+constexpr std::uint32_t                dac_level_1 = 0x08;
+constexpr std::uint32_t                dac_level_2 = 0x14;
+constexpr double                       reference_V = 3.3;
 
 constexpr int line_adc    = 18;
 constexpr int line_can    = 21;
@@ -167,7 +173,7 @@ void Chip::power_cycle()
 std::uint64_t Chip::next_event()
 {
     return std::min({timer_.next_end(), adc1_.due(), adc2_.due(), serial_.due(), can_.due(),
-                     core_.exceptions().tick_due(), watchdog_.due()});
+                     core_.exceptions().tick_due(), watchdog_.due(), looks_});
 }
 
 void Chip::update_gates()
@@ -201,6 +207,7 @@ void Chip::begin_period()
         adc1_.start(circuit_, period_began_);
         adc2_.start(circuit_, period_began_);
     }
+    looks_ = look_ > 0U ? period_began_ + look_ : UINT64_MAX;
     update_comparators();
 }
 
@@ -222,6 +229,10 @@ void Chip::serve_events()
     can_.step();
     if (core_.exceptions().tick_due() <= now) {
         core_.exceptions().tick();
+    }
+    if (looks_ <= now) {
+        looks_ += look_;
+        update_comparators();
     }
 }
 
@@ -264,18 +275,30 @@ void Chip::set_over_current(bool active)
     update_comparators();
 }
 
+/// A comparator with DAC3 at its inverting input.
+bool Chip::is_above(int phase, double pin_V) const
+{
+    const std::uint32_t csr       = analog_.at(comparators.at(static_cast<std::size_t>(phase)));
+    const bool          first     = phase == 0; // channel 1 of DAC3 at comparator 1
+    const bool          has_level = (dac_.at(0U) & (first ? 1U : 1U << 16U)) != 0U;
+    const std::uint32_t level     = dac_.at(first ? dac_level_1 : dac_level_2);
+    const bool          compares  = (csr & 1U) != 0U && ((csr >> 4U) & 7U) == 4U && has_level;
+    const bool          inverts   = (csr & inverted) != 0U;
+    return compares && (pin_V > level * reference_V / 4096.0) != inverts;
+}
+
 void Chip::update_comparators()
 {
-    const bool active = over_current_ || circuit_.over_current();
-    if (active == break_) {
-        return;
+    const double  into_s = static_cast<double>(core_.cycles() - period_began_) / core_Hz;
+    std::uint32_t high   = 0; // a bit of each comparator
+    for (int phase = 0; phase < 3; phase++) {
+        const bool sees_it = over_current_ || is_above(phase, circuit_.shunt_V(phase, into_s));
+        const std::uint32_t offset = comparators.at(static_cast<std::size_t>(phase));
+        std::uint32_t      &csr    = analog_.at(offset);
+        csr                        = sees_it ? csr | sees : csr & ~sees;
+        high |= sees_it ? 1U << ((offset - comparators[0]) / 4U) : 0U;
     }
-    break_ = active;
-    for (std::uint32_t n = 0; n < 4; n++) {
-        std::uint32_t &csr = analog_.at(comparators + 4U * n);
-        csr                = active ? csr | sees : csr & ~sees;
-    }
-    timer_.set_break(active);
+    timer_.set_break(over_current_ || timer_.breaks_at(high));
     update_gates();
 }
 

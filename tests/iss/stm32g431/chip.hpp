@@ -39,6 +39,11 @@ public:
     }
     /// Off and on. The RAM holds anything, and so does what the flash was erasing or writing.
     void power_cycle();
+    /// The comparators look so often, and not at the counter's top alone.
+    void look_each(double time_s)
+    {
+        look_ = static_cast<std::uint64_t>(time_s * core_Hz);
+    }
     /// A comparator sees too much current.
     void set_over_current(bool active);
     void open_home_switch(bool open)
@@ -143,6 +148,7 @@ private:
     void          update_gates();
     void          update_lines();
     void          update_comparators();
+    bool          is_above(int phase, double pin_V) const;
 
     Core          core_;
     Circuit      &circuit_;
@@ -171,9 +177,10 @@ private:
     bool          gates_        = false;
     bool          trigger_lost_ = false;
     bool          over_current_ = false; // from outside
-    bool          break_        = false;
     std::uint64_t period_began_ = 0;
     std::uint64_t asked_        = 0; // of run_to()
+    std::uint64_t look_         = 0; // of look_each()
+    std::uint64_t looks_        = UINT64_MAX;
     int           resets_       = 0;
     std::uint8_t  anything_     = 0; // in the RAM
 };

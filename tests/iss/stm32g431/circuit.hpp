@@ -42,11 +42,15 @@ public:
     virtual Shaft shaft()                                          = 0;
     /// 12-bit code at an input of a converter, 1 or 2.
     virtual int code(int converter, int input) = 0;
-    /// The comparator at some shunt sees too much current.
-    virtual bool over_current()
+    /// At the pin that amplifier and comparator of a phase share, this long after the counter's top.
+    virtual double shunt_V(int phase, double into_period_s)
     {
-        return false;
+        (void)phase;
+        (void)into_period_s;
+        return no_current_V;
     }
+
+    static constexpr double no_current_V = 0.9 / 7.0; // docs/hardware_stm32g431.md, "Analog scaling"
 };
 
 } // namespace iss::stm32g431

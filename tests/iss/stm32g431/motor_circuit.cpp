@@ -15,6 +15,8 @@ constexpr int input_of_a_and_b = 3;
 constexpr int input_of_c       = 12;
 constexpr int input_of_dc_link = 1;
 
+constexpr double shunt_Ohm = 3e-3; // "Analog scaling"
+
 constexpr double zero_degC_K = 273.15;
 constexpr double ntc_25_K    = zero_degC_K + 25.0;
 
@@ -107,15 +109,16 @@ int MotorCircuit::code(int converter, int input)
     return temperature_code();
 }
 
-/// The comparators see a current out of the motor, above the board's level.
-bool MotorCircuit::over_current()
+/// Above the level without current for a current out of the motor.
+double MotorCircuit::shunt_V(int phase, double into_period_s)
 {
-    if (bench_.board() == nullptr || !board_.file) {
-        return false;
+    if (bench_.board() == nullptr) {
+        return no_current_V;
     }
-    const sdre::PhaseVector i      = bench_.board()->plant().phase_current_A();
-    const double            trip_A = (*board_.file)[BOARD_FACT_TRIP_CURRENT_A];
-    return std::min({i.a, i.b, i.c}) < -trip_A;
+    bench_.advance_to(into_period_s);
+    const sdre::PhaseVector i         = bench_.board()->plant().phase_current_A();
+    const double            current_A = phase == 0 ? i.a : phase == 1 ? i.b : i.c;
+    return no_current_V - 4.0 / 7.0 * shunt_Ohm * current_A;
 }
 
 } // namespace iss::stm32g431

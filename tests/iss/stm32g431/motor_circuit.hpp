@@ -12,11 +12,11 @@ public:
     /// @param ideal_inverter The bridge needs no dead time: what the gates leave out is not taken from the voltage.
     MotorCircuit(sdre::MotorBench &bench, const sdre::Drive &drive, bool ideal_inverter);
 
-    void  period_begins(const PwmPeriod &period) override;
-    void  gates_change(bool enabled, double into_period_s) override;
-    Shaft shaft() override;
-    int   code(int converter, int input) override;
-    bool  over_current() override;
+    void   period_begins(const PwmPeriod &period) override;
+    void   gates_change(bool enabled, double into_period_s) override;
+    Shaft  shaft() override;
+    int    code(int converter, int input) override;
+    double shunt_V(int phase, double into_period_s) override;
 
     /// Compare values of the present period.
     const std::array<int, 3> &duty_cnt() const

@@ -66,6 +66,29 @@ TEST_F(IssLoop, TheBreakInputOpensTheBridgeAndAResetStartsAgain)
     expect_no_findings();
 }
 
+// Windings that are shorted to a fiftieth of their inductance and resistance: the current rises by 6 A in a microsecond.
+TEST_F(IssLoop, AComparatorOpensTheBridgeBeforeTheProgramKnows)
+{
+    bring_to_run(0.3);
+    chip.look_each(0.5e-6);
+    PlantChange shorted;
+    shorted.plant_scale = {{"stator_resistance_Ohm", 0.02},
+                           {"d_axis_inductance_H", 0.02},
+                           {"q_axis_inductance_H", 0.02}};
+    served.bench().board()->apply(shorted);
+    ASSERT_GE(image.opens_s(soon_s), 0.0);
+    EXPECT_FALSE(served.bridge_on());
+    EXPECT_EQ(status().mode, APP_MODE_RUN) << "no tick knows of it";
+    EXPECT_EQ(status().fault, APP_FAULT_NONE);
+    const double peak_A = served.bench().board()->peak_current_A();
+    EXPECT_GT(peak_A, 44.8) << "by the network and 0.205 V";
+    EXPECT_LT(peak_A, 44.8 * 2.0 / std::sqrt(3.0) + 6.0) << "a vector between two phases, and a look later";
+    pass(2.0 * period_s());
+    EXPECT_EQ(status().mode, APP_MODE_FAULT);
+    EXPECT_EQ(status().fault, APP_FAULT_BOARD);
+    expect_no_findings();
+}
+
 TEST_F(IssLoop, TheButtonOpensTheBridgeWithinAPeriod)
 {
     bring_to_run(0.3);

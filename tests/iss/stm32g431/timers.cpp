@@ -18,12 +18,14 @@ constexpr std::uint32_t ccr1 = 0x34;
 constexpr std::uint32_t ccr3 = 0x3C;
 constexpr std::uint32_t ccr4 = 0x40;
 constexpr std::uint32_t bdtr = 0x44;
+constexpr std::uint32_t af1  = 0x60;
 
 constexpr std::uint32_t run        = 1U;
 constexpr std::uint32_t down       = 1U << 4U;
 constexpr std::uint32_t moe        = 1U << 15U;
 constexpr std::uint32_t lock_level = 3U << 8U;
 constexpr std::uint32_t break_on   = 1U << 12U;
+constexpr std::uint32_t break_is_high = 1U << 13U;
 constexpr std::uint32_t locked_bits =
     0xFFU | (3U << 10U) | (3U << 12U) | (15U << 16U); // by level 1
 constexpr std::uint32_t break_flag  = 1U << 7U;
@@ -117,6 +119,13 @@ void PwmTimer::trip()
         at(bdtr) &= ~moe;
         at(sr) |= break_flag;
     }
+}
+
+bool PwmTimer::breaks_at(std::uint32_t comparators) const
+{
+    const std::uint32_t connected = at(af1) >> 1U;
+    const bool          high      = (comparators & connected) != 0U;
+    return connected != 0U && high == ((at(bdtr) & break_is_high) != 0U);
 }
 
 void PwmTimer::set_break(bool active)
