@@ -46,8 +46,17 @@ bool ended(const app_status_t &s)
 
 CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o, BoardKind kind)
 {
+    const Controller controller = prepare_controller(commission_scenario(truth, o));
+    return commission_on_board(truth, o, [&](const BoardScenario &b, long start_tick) {
+        set_firmware(controller.config, truth);
+        return make_run(b, kind, start_tick);
+    });
+}
+
+CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o,
+                                  const PowerUp &power_up)
+{
     const BoardScenario board = for_board(commission_scenario(truth, o));
-    set_firmware(prepare_controller(board.scenario).config, truth);
     const double ts     = control_period_s(truth);
     const long   start  = std::lround(free_s / ts);
     const long   chat   = std::lround(chat_s / ts);
@@ -57,12 +66,12 @@ CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o
         static_cast<std::uint16_t>(std::lround(100.0 * static_cast<double>(bounds.current_max_A)));
     const auto speed = static_cast<std::uint16_t>(
         std::lround(10.0 * static_cast<double>(bounds.speed_max_m_radps)));
-    const std::unique_ptr<BoardRun> run = make_run(board, kind, start);
+    const std::unique_ptr<BoardRun> run = power_up(board, start);
 
     CommissionRun result;
     bool          asked = false;
     std::int64_t  first = 0;
-    app_status_t  s     = app_status_read();
+    app_status_t  s     = run->status();
     while (run->bench().tick() < most && !ended(s)) {
         const long tick = run->bench().tick();
         if (tick >= start && !asked) {
@@ -72,7 +81,7 @@ CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o
         }
         const commission_stage_t before = s.commission.stage;
         const bool               alive  = run->step();
-        s                               = app_status_read();
+        s                               = run->status();
         if (before == COMMISSION_IDLE && s.commission.stage == COMMISSION_WATCH) {
             first = run->bench().sample().count;
         }

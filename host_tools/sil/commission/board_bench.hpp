@@ -10,5 +10,8 @@ namespace sdre {
 /// InputError when the board cannot have the drive, or the firmware does not begin. Bounds are the drive's.
 CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &options,
                                   BoardKind kind);
+/// On a board that has its constants already.
+CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &options,
+                                  const PowerUp &power_up);
 
 } // namespace sdre
