@@ -25,6 +25,9 @@ constexpr double erasing_s = 1.0; ///< within an erasure that a request has begu
 /// Largest speeds of images that are loaded: not those of the shipped drive.
 constexpr double first_image_e_radps  = 300.0;
 constexpr double second_image_e_radps = 400.0;
+constexpr double speed_band_rpm       = 3.0;
+constexpr double coasting_s           = 1.5; ///< from 600 r/min it still turns; a quick stop has ended
+constexpr double to_rest_s            = 8.5;
 constexpr int    counts_per_turn      = 10000; ///< four times the lines
 
 /// A word of a stored content.

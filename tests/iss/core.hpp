@@ -28,7 +28,10 @@ public:
     virtual ~MemoryGuard()                      = default;
     virtual void before_write(std::uint32_t address, unsigned octets, std::uint32_t value) = 0;
     /// Only around the addresses of watch_reads().
-    virtual void before_read(std::uint32_t address) = 0;
+    virtual void before_read(std::uint32_t address)
+    {
+        (void)address;
+    }
 };
 
 /// Told when a handler begins and ends: the way to it and back is a part of it.

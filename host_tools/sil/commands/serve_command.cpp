@@ -11,36 +11,22 @@
 namespace sdre {
 namespace {
 
-constexpr const char *shipped   = "ipmsm_390w";
-constexpr int         ports     = 65535;
-constexpr int         no_node   = 0;
-constexpr int         last_node = 127;
+constexpr const char *shipped = "ipmsm_390w";
 
 struct Options {
     ServeArguments common;
     BoardOption    board;
     std::string    flash;
-    int            slcan_tcp = ServeArguments::no_port;
-    int            join      = ServeArguments::no_port;
-    int            node      = no_node;
-    std::string    slcan_pty;
     bool           boot_rom = false;
 };
 
 /// Options of the virtual F28335 alone, and what the simulation of the other board lacks for them.
 constexpr std::pair<const char *, const char *> of_f28335[] = {
-    {"--slcan-tcp", "CAN bus"}, {"--slcan-pty", "CAN bus"}, {"--join", "CAN bus"},
-    {"--node", "CAN bus"},      {"--flash", "kept flash"},  {"--boot-rom", "boot ROM"}};
+    {"--flash", "kept flash"}, {"--boot-rom", "boot ROM"}};
 
 void declare(OptionList &list, Options &o)
 {
     declare_serve(list, o.common, shipped);
-    list.number("--slcan-tcp", o.slcan_tcp, {0, ports},
-                "the drive's CAN bus, as slcan over TCP on this port; 0: any");
-    list.text("--slcan-pty", o.slcan_pty, "slcan on a pseudo-terminal of this name");
-    list.number("--join", o.join, {1, ports},
-                "the CAN bus of the drive whose --slcan-tcp has this port: both drives on one bus");
-    list.number("--node", o.node, {1, last_node}, "node number of this drive on the CAN bus");
     list.text("--flash", o.flash,
               "file that keeps the drive's flash: parameters and image last over its end");
     list.flag("--boot-rom", o.boot_rom,
@@ -71,8 +57,6 @@ int run(const Options &o)
     }
     require_no_image(o.board);
     ServeOptions s = serve_options(o.common);
-    s.can          = {port(o.slcan_tcp), o.slcan_pty, port(o.join)};
-    s.node         = o.node == no_node ? std::nullopt : std::optional<int>(o.node);
     s.flash        = o.flash;
     s.boot_rom     = o.boot_rom;
     if (o.boot_rom && s.pty.empty()) {

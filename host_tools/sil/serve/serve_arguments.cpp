@@ -14,6 +14,7 @@ namespace {
 constexpr int default_tcp     = 1502; // as Modbus's own 502, for which one has to be root
 constexpr int default_control = 1503;
 constexpr int ports           = 65535;
+constexpr int last_node       = 127;
 
 /// The bench of a second drive is beside that drive.
 int control_beside(int tcp)
@@ -49,6 +50,12 @@ void declare_serve(OptionList &list, ServeArguments &a, const char *shipped)
                 "end after so many simulated seconds (default: never)");
     list.number("--seed", a.seed, {0, 1000000},
                 "of the noise and of the rotor's angle (default 1)");
+    list.number("--slcan-tcp", a.slcan_tcp, {0, ports},
+                "the drive's CAN bus, as slcan over TCP on this port; 0: any");
+    list.text("--slcan-pty", a.slcan_pty, "slcan on a pseudo-terminal of this name");
+    list.number("--join", a.join, {1, ports},
+                "the CAN bus of the drive whose --slcan-tcp has this port: both drives on one bus");
+    list.number("--node", a.node, {1, last_node}, "node number of this drive on the CAN bus");
 }
 
 Drive served_drive(const ServeArguments &a, const char *shipped)
@@ -71,6 +78,8 @@ ServeOptions serve_options(const ServeArguments &a)
     }
     s.cogging_share = 1e-3 * a.cogging;
     s.end_s         = a.end_s;
+    s.can           = {port(a.slcan_tcp), a.slcan_pty, port(a.join)};
+    s.node          = a.node == ServeArguments::no_node ? std::nullopt : std::optional<int>(a.node);
     if (s.pty.empty() && !s.tcp && !s.rtu_tcp) {
         s.tcp = default_tcp;
     }

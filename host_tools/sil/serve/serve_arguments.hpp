@@ -11,6 +11,7 @@ namespace sdre {
 
 struct ServeArguments {
     static constexpr int no_port = -1; ///< not given
+    static constexpr int no_node = 0;
 
     std::string drive;
     std::string machine;
@@ -22,6 +23,10 @@ struct ServeArguments {
     double      end_s        = 0.0;
     int         cogging      = 0;
     int         seed         = 1;
+    int         slcan_tcp    = no_port;
+    int         join         = no_port;
+    int         node         = no_node;
+    std::string slcan_pty;
 };
 
 /// @param shipped Name of the drive when none is given.

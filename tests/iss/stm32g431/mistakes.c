@@ -13,6 +13,8 @@
 #define ADC1(offset) WORD(0x50000000UL + (offset))
 #define FLASH(at)    WORD(0x40022000UL + (at))
 #define IWDG(at)     WORD(0x40003000UL + (at))
+#define CAN(at)      WORD(0x40006400UL + (at))
+#define CAN_BUFFER_1 WORD(0x4000A400UL + 0x2C0UL)
 #define PLACE        0x0801F000UL /* erased */
 
 enum {
@@ -30,7 +32,10 @@ enum {
     NOWHERE,
     WATCHDOG_KEY,
     NOT_SERVED,
-    CODE_WRITTEN
+    CODE_WRITTEN,
+    CAN_NOT_CONFIGURED,
+    CAN_CHANGED,
+    CAN_NOT_HELD
 };
 
 extern uint32_t stack_top;
@@ -53,7 +58,7 @@ void fault(void)
 static void clocks(void)
 {
     RCC_AHB2ENR  = 0x2007UL;
-    RCC_APB1ENR1 = 0x10020005UL;
+    RCC_APB1ENR1 = 0x12020005UL;
     RCC_APB2ENR  = 0x801UL;
 }
 
@@ -190,6 +195,16 @@ void start(void)
         WORD(0x10000FFCUL) = 1UL;
         WORD(0x10001400UL) = 1UL;
         WORD(0x100013FCUL) = 2UL;
+        break;
+    case CAN_NOT_CONFIGURED:
+        CAN(0x1CU) = 0x06000A03UL; /* the bit timing, without CCE */
+        break;
+    case CAN_CHANGED:
+        CAN(0xCCU)   = 2UL; /* the second buffer waits to be sent */
+        CAN_BUFFER_1 = 0UL;
+        break;
+    case CAN_NOT_HELD:
+        CAN(0x94U) = 0UL; /* there is no frame */
         break;
     default:
         break;

@@ -27,6 +27,7 @@ ServedImage::ServedImage(const sdre::Drive &drive, const sdre::Machine &machine,
       board_(bench(), scenario().drive, program, false)
 {
     require_constants(program, drive);
+    board_.chip.connect_can(can_bus());
     start();
 }
 

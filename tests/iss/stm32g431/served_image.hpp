@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The image that is flashed with a free motor: from power-up, without an end. CAN and the cycles of the flash are not
-/// modelled.
+/// The image that is flashed with a free motor: from power-up, without an end. The cycles of the flash are not modelled.
 #pragma once
 
 #include "sil/served/served_drive.hpp"
@@ -27,7 +26,7 @@ public:
     }
     sdre::Connections connections() const override
     {
-        return {false, false, false};
+        return {true, false, false};
     }
     void   period() override;
     void   power_cycle() override;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The firmware's CANopen node on the virtual F28335: driver, node and motor.
+// The firmware's CANopen node: driver, node and motor.
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "can_client.hpp"
 
@@ -13,7 +12,6 @@ using namespace sdre;
 constexpr unsigned emergency = 0x81;
 constexpr int      velocity  = 3;
 constexpr unsigned enabled   = 0x27;
-constexpr double   ts_s      = 2e-4;
 
 class Canopen : public CanClient {
 protected:
@@ -26,7 +24,7 @@ protected:
         ASSERT_EQ(put(0x60FF, 0, static_cast<std::uint32_t>(std::lround(10.0 * rpm)), 4), no_abort);
         enable(velocity);
         pass(1.0);
-        ASSERT_NEAR(speed_rpm(), rpm, 3.0);
+        ASSERT_NEAR(speed_rpm(), rpm, speed_band_rpm);
     }
     int take_emergency(double longest_s)
     {
@@ -49,7 +47,7 @@ TEST_F(Canopen, RunsWithoutModbus)
 {
     run_at(600.0);
     pass(3.0); // MODBUS_TIMEOUT is half a second
-    EXPECT_NEAR(speed_rpm(), 600.0, 3.0);
+    EXPECT_NEAR(speed_rpm(), 600.0, speed_band_rpm);
     EXPECT_EQ(state(), enabled);
     EXPECT_EQ(put(0x6040, 0, 0, 2), no_abort);
     pass(0.5);
@@ -84,13 +82,12 @@ TEST_F(Canopen, ALostHeartbeatActsAsLostOptionSays)
         come.clear();
         pass(0.045);
         EXPECT_EQ(take_emergency(0.05), 0x8130);
-        pass(1.0);
+        pass(coasting_s);
         EXPECT_NE(state(), enabled);
-        EXPECT_EQ(put(0x6040, 0, 0, 2), no_abort);
-        pass(0.5);
-        std::printf("LOST_OPTION %d: %.0f r/min after 1.5 s\n", option, speed_rpm());
+        std::printf("LOST_OPTION %d: %.0f r/min after %.2f s\n", option, speed_rpm(), coasting_s);
         EXPECT_EQ(std::abs(speed_rpm()) < 20.0, option == 3); // else it coasts
-        pass(8.0);                                            // coasts to rest
+        EXPECT_EQ(put(0x6040, 0, 0, 2), no_abort);
+        pass(to_rest_s);
     }
     expect_no_findings();
 }
@@ -132,8 +129,7 @@ TEST_F(Canopen, AnswersAtEveryBitRate)
         ASSERT_EQ(put(0x2121, 0, rate, 2), no_abort);
         nmt(130);
         ASSERT_TRUE(take(0x701, 0.1)) << rate;
-        EXPECT_DOUBLE_EQ(served.can().bit_rate_Hz(), 1e3 * rate);
-        EXPECT_NEAR(f28335::EcanUnit::sample_point(), 13.0 / 15.0, 1e-9);
+        EXPECT_DOUBLE_EQ(served.can_bus().bit_rate_Hz(), 1e3 * rate);
         EXPECT_EQ(get(0x1000), 0x20192U) << rate;
     }
     expect_no_findings();
@@ -177,69 +173,13 @@ TEST_F(Canopen, CommandsOfOnePdoActTogetherWithSync)
         pass(9.5e-3);
     }
     pass(0.5);
-    EXPECT_NEAR(speed_rpm(), 399.5, 3.0);
+    EXPECT_NEAR(speed_rpm(), 399.5, speed_band_rpm);
     int answers = 0;
     for (const f28335::CanFrame &f : come) {
         answers += f.id == 0x481 ? 1 : 0;
     }
     EXPECT_EQ(answers, 200);
     EXPECT_EQ(take_emergency(0.0), -1);
-    expect_no_findings();
-}
-
-/// Torques by SYNC: control periods from SYNC until the machine has half of the step.
-class TorqueBySync : public Canopen {
-protected:
-    void SetUp() override
-    {
-        ASSERT_EQ(put(0x1403, 1, 0x80000501U, 4), no_abort);
-        ASSERT_EQ(put(0x1403, 2, 1, 1), no_abort);
-        ASSERT_EQ(put(0x1603, 0, 0, 1), no_abort);
-        ASSERT_EQ(put(0x1603, 2, 0x60710010U, 4), no_abort);
-        ASSERT_EQ(put(0x1603, 0, 2, 1), no_abort);
-        ASSERT_EQ(put(0x1403, 1, 0x501, 4), no_abort);
-        enable(cyclic_torque);
-        nmt(1);
-    }
-    int periods_to(int per_mille, double wait_s)
-    {
-        const auto   x        = static_cast<std::uint32_t>(per_mille);
-        const double wanted   = 0.5e-3 * per_mille * rated_Nm;
-        const auto   has_half = [&] {
-            const double now = served.plant_state().torque_Nm;
-            return wanted > 0.0 ? now > wanted : now < wanted;
-        };
-        send(0x501, {0x0F, 0, static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(x >> 8U)});
-        pass(wait_s);
-        EXPECT_FALSE(has_half());
-        const double sent_s = served.time_s();
-        send(0x80, {});
-        while (!has_half() && served.time_s() < sent_s + 50.0 * ts_s) {
-            pass(ts_s);
-        }
-        return static_cast<int>(std::lround((served.time_s() - sent_s) / ts_s));
-    }
-
-    static constexpr int    cyclic_torque = 10;
-    static constexpr double rated_Nm      = 1.5;
-};
-
-TEST_F(TorqueBySync, BeginsInTheControlInterruptHoweverLongThePassesTake)
-{
-    for (const double pass_s : {25e-6, 0.35e-3, 0.7e-3}) {
-        served.set_pass(pass_s);
-        std::map<int, int> seen;
-        for (int n = 0; n < 200; n++) {
-            seen[periods_to(n % 2 == 0 ? 200 : -200, (20 + n % 7) * ts_s)]++;
-        }
-        std::printf("passes of %.3f ms; periods from SYNC to half of a step of torque:",
-                    1e3 * pass_s);
-        for (const auto &[periods, times] : seen) {
-            std::printf(" %d (%d)", periods, times);
-        }
-        std::printf("\n");
-        EXPECT_LE(seen.rbegin()->first, 10); // 13 if the background passed it on
-    }
     expect_no_findings();
 }
 
@@ -260,7 +200,7 @@ TEST_F(Canopen, AFullBusTakesNothingAway)
     std::printf("bus load %.0f %%; slowest answer to an SDO request: %.2f ms\n",
                 100.0 * served.can_bus().load(), 1e3 * slowest_s);
     EXPECT_GT(served.can_bus().load(), 0.9);
-    EXPECT_NEAR(speed_rpm(), 600.0, 3.0);
+    EXPECT_NEAR(speed_rpm(), 600.0, speed_band_rpm);
     EXPECT_EQ(take_emergency(0.0), -1);
     expect_no_findings();
 }
@@ -277,7 +217,7 @@ TEST_F(Canopen, ABabblingNodeOnAnIdentifierOfOursIsToldAndDoesNoHarm)
         pass(2.0e-3);
     }
     EXPECT_EQ(state(), enabled);
-    EXPECT_NEAR(speed_rpm(), 600.0, 3.0);
+    EXPECT_NEAR(speed_rpm(), 600.0, speed_band_rpm);
     expect_no_findings();
 }
 
@@ -285,7 +225,7 @@ TEST_F(Canopen, FaultsAreTold)
 {
     run_at(600.0);
     come.clear();
-    served.dynamometer().brake(0.5);
+    served.dynamometer().brake(0.3 * served.drive().motor.rated_torque_Nm);
     pass(0.5);
     InjectedFault broken;
     broken.kind = FaultKind::phase_open;
@@ -307,7 +247,7 @@ TEST_F(Canopen, ABrokenEncoderWireIsToldWithTheTrip)
     const double broken_s = served.time_s();
     double       open_s   = 0.0;
     for (bool told = false; !told && served.time_s() < broken_s + 1.0;) {
-        pass(ts_s);
+        pass(served.period_s());
         open_s = served.bridge_on() ? served.time_s() : open_s;
         for (const f28335::CanFrame &f : come) {
             told = told || f.id == emergency;

@@ -35,11 +35,11 @@ protected:
         f.id     = id;
         f.length = static_cast<std::uint8_t>(data.size());
         std::copy(data.begin(), data.end(), f.data.begin());
-        return served.can().send(f);
+        return served.can_bus().far_end().send(f);
     }
     void after_period() override
     {
-        while (const std::optional<f28335::CanFrame> f = served.can().take()) {
+        while (const std::optional<f28335::CanFrame> f = served.can_bus().far_end().take()) {
             come.push_back(*f);
         }
     }
