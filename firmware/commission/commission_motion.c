@@ -87,16 +87,10 @@ float commission_motion_torque(const commission_result_t *known, float iq, float
     return 1.5f * (float)known->pole_pairs * ((known->flux_Wb.value * iq) + (saliency * idiq));
 }
 
-typedef struct {
-    float rate_1ps;    /**< B / J */
-    float rate_radps2; /**< C / J */
-    float error_1ps;
-    float error_radps2;
-} slowing_t;
-
-/* Inertia from the driven windows and the known deceleration. */
+/* Inertia from the driven windows and the deceleration by both kinds of friction, B / J and C / J.
+ */
 static commission_value_t inertia_of(const commission_motion_t *m, const commission_result_t *known,
-                                     const slowing_t *slow)
+                                     float rate_1ps, float rate_radps2)
 {
     commission_value_t j  = {0.0f, 0.0f};
     float              xx = 0.0f;
@@ -106,8 +100,7 @@ static commission_value_t inertia_of(const commission_motion_t *m, const commiss
     for (int16_t k = 0; k < m->count; k++) {
         const commission_window_t *w = &m->windows[k];
         if (w->driven) {
-            const float x =
-                w->speed_radps + (slow->rate_1ps * w->way_rad) + (slow->rate_radps2 * w->time_s);
+            const float x = w->speed_radps + (rate_1ps * w->way_rad) + (rate_radps2 * w->time_s);
             const float y = commission_motion_torque(known, w->iq_As, w->idiq_A2s);
             xx += x * x;
             xy += x * y;
@@ -123,45 +116,49 @@ static commission_value_t inertia_of(const commission_motion_t *m, const commiss
 }
 
 /* Makes both coefficients non-negative: if one is negative, refits the other one alone. */
-static void keep_braking(slowing_t *slow, const commission_fit_t *f)
+static void keep_braking(commission_result_t *found, const commission_fit_t *f)
 {
-    if ((slow->rate_1ps < 0.0f) && (f->bb > 0.0f)) {
-        slow->rate_1ps    = 0.0f;
-        slow->rate_radps2 = f->by / f->bb;
-    } else if ((slow->rate_radps2 < 0.0f) && (f->aa > 0.0f)) {
-        slow->rate_radps2 = 0.0f;
-        slow->rate_1ps    = f->ay / f->aa;
+    float *const rate_1ps    = &found->friction_Nms.value;
+    float *const rate_radps2 = &found->coulomb_Nm.value;
+
+    if ((*rate_1ps < 0.0f) && (f->bb > 0.0f)) {
+        *rate_1ps    = 0.0f;
+        *rate_radps2 = f->by / f->bb;
+    } else if ((*rate_radps2 < 0.0f) && (f->aa > 0.0f)) {
+        *rate_radps2 = 0.0f;
+        *rate_1ps    = f->ay / f->aa;
     } else {
         /* both are non-negative, or a refit is impossible */
     }
-    slow->rate_1ps    = base_max(slow->rate_1ps, 0.0f);
-    slow->rate_radps2 = base_max(slow->rate_radps2, 0.0f);
+    *rate_1ps    = base_max(*rate_1ps, 0.0f);
+    *rate_radps2 = base_max(*rate_radps2, 0.0f);
 }
 
-/* Deceleration from the coasting windows. @return false: the shaft did not coast long enough. */
-static bool slowing_of(const commission_motion_t *m, const commission_result_t *known,
-                       float per_inertia, slowing_t *slow)
+/* Deceleration from the coasting windows: B / J and C / J take the places of B and C.
+ * @return false: the shaft did not coast long enough. */
+static bool slowing_of(const commission_motion_t *m, commission_result_t *found)
 {
+    const float      per_inertia = 1.0f / found->inertia_kgm2.value;
     commission_fit_t fit;
 
     commission_fit_reset(&fit);
     for (int16_t k = 0; k < m->count; k++) {
         const commission_window_t *w = &m->windows[k];
         if (!w->driven) {
-            const float pull = per_inertia * commission_motion_torque(known, w->iq_As, w->idiq_A2s);
+            const float pull = per_inertia * commission_motion_torque(found, w->iq_As, w->idiq_A2s);
             commission_fit_add(&fit, w->way_rad, w->time_s, pull - w->speed_radps);
         }
     }
-    const commission_fitted_t f = commission_fit_solve(&fit);
-    if (!f.valid || (fit.n < LEAST_COASTING)) {
-        return false;
+    const commission_fitted_t f           = commission_fit_solve(&fit);
+    const bool                long_enough = f.valid && (fit.n >= LEAST_COASTING);
+    if (long_enough) {
+        found->friction_Nms.value = f.x0;
+        found->friction_Nms.error = f.error0;
+        found->coulomb_Nm.value   = f.x1;
+        found->coulomb_Nm.error   = f.error1;
+        keep_braking(found, &fit);
     }
-    slow->rate_1ps     = f.x0;
-    slow->rate_radps2  = f.x1;
-    slow->error_1ps    = f.error0;
-    slow->error_radps2 = f.error1;
-    keep_braking(slow, &fit);
-    return true;
+    return long_enough;
 }
 
 /* Relative torque error: that of the flux, or of Lq - Ld in a reluctance motor. */
@@ -202,22 +199,39 @@ static bool solve_driven(const commission_motion_t *m, commission_result_t *foun
     return found->inertia_kgm2.error < (WORST * f.x0);
 }
 
-bool commission_motion_solve(const commission_motion_t *m, commission_result_t *found)
+/* Of a friction per inertia. */
+static commission_value_t times_inertia(commission_value_t rate, commission_value_t j)
 {
-    slowing_t                slow  = {0.0f, 0.0f, 0.0f, 0.0f};
-    const commission_value_t rough = inertia_of(m, found, &slow);
-    if (!(rough.value > 0.0f)) {
-        return false;
+    const commission_value_t x = {rate.value * j.value,
+                                  (rate.error * j.value) + (rate.value * j.error)};
+    return x;
+}
+
+static commission_step_t step_of(bool good, commission_step_t next)
+{
+    return good ? next : COMMISSION_FAILED;
+}
+
+commission_step_t commission_motion_solve(const commission_motion_t *m, int16_t part,
+                                          commission_result_t *found)
+{
+    commission_step_t step = COMMISSION_BUSY;
+
+    if (part == COMMISSION_MOTION_ROUGH) {
+        found->inertia_kgm2 = inertia_of(m, found, 0.0f, 0.0f);
+        step                = step_of(found->inertia_kgm2.value > 0.0f, COMMISSION_BUSY);
+    } else if (part == COMMISSION_MOTION_SLOWING) {
+        if (!slowing_of(m, found)) { /* EQ-COMMISSION-11 */
+            step = step_of(solve_driven(m, found), COMMISSION_DONE);
+        }
+    } else {
+        commission_value_t j =
+            inertia_of(m, found, found->friction_Nms.value, found->coulomb_Nm.value);
+        j.error += relative_torque_error(found) * j.value;
+        found->inertia_kgm2 = j;
+        found->friction_Nms = times_inertia(found->friction_Nms, j);
+        found->coulomb_Nm   = times_inertia(found->coulomb_Nm, j);
+        step                = step_of(j.value > 0.0f, COMMISSION_DONE);
     }
-    if (!slowing_of(m, found, 1.0f / rough.value, &slow)) { /* EQ-COMMISSION-11 */
-        return solve_driven(m, found);
-    }
-    found->inertia_kgm2 = inertia_of(m, found, &slow);
-    found->inertia_kgm2.error += relative_torque_error(found) * found->inertia_kgm2.value;
-    const commission_value_t j = found->inertia_kgm2;
-    found->friction_Nms.value  = slow.rate_1ps * j.value;
-    found->friction_Nms.error  = (slow.error_1ps * j.value) + (slow.rate_1ps * j.error);
-    found->coulomb_Nm.value    = slow.rate_radps2 * j.value;
-    found->coulomb_Nm.error    = (slow.error_radps2 * j.value) + (slow.rate_radps2 * j.error);
-    return found->inertia_kgm2.value > 0.0f;
+    return step;
 }

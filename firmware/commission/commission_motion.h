@@ -58,8 +58,20 @@ void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length
 void commission_motion_tick(commission_motion_t *m, const commission_config_t *c,
                             const commission_result_t *known, int32_t position_cnt, dq_t i_A);
 
-/** Computes inertia and friction, EQ-COMMISSION-11. @return false: the windows do not suffice. */
-bool commission_motion_solve(const commission_motion_t *m, commission_result_t *found);
+/** Parts of the solution: one of them is enough work for a period. */
+enum {
+    COMMISSION_MOTION_ROUGH = 0, /**< inertia without friction */
+    COMMISSION_MOTION_SLOWING,   /**< friction per inertia, which `found` has until the next part */
+    COMMISSION_MOTION_BOTH
+};
+
+/**
+ * @brief Computes a part of inertia and friction, EQ-COMMISSION-11, in their order.
+ *
+ * @return COMMISSION_BUSY: the next part follows. COMMISSION_FAILED: the windows do not suffice.
+ */
+commission_step_t commission_motion_solve(const commission_motion_t *m, int16_t part,
+                                          commission_result_t *found);
 
 /** Torque integral [N m s] from integrals of i_q and i_d i_q; torque [N m] from their values. */
 float commission_motion_torque(const commission_result_t *known, float iq, float idiq);

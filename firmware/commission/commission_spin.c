@@ -32,7 +32,7 @@
 /* Periods in which a current with bandwidth w_c settles, with ample margin. */
 #define SETTLE_TICKS 60L
 
-enum { REST = 0, TRIAL, UP, COAST_UP, DOWN, COAST_DOWN, LOW, COAST_LOW, STOP, PARTS };
+enum { REST = 0, TRIAL, UP, COAST_UP, DOWN, COAST_DOWN, LOW, COAST_LOW, STOP, SOLVE, SOLVED };
 
 void commission_spin_start(commission_spin_t *p, const commission_config_t *c,
                            const commission_signal_t *s, const commission_result_t *known)
@@ -185,6 +185,19 @@ static commission_step_t trial(commission_spin_t *p, const commission_config_t *
     return COMMISSION_BUSY;
 }
 
+/* A part of the solution in each period, and the last one alone: the next stage begins after it. */
+static commission_step_t solve(commission_spin_t *p, const commission_signal_t *s,
+                               commission_result_t *found)
+{
+    const commission_step_t step =
+        commission_motion_solve(&p->motion, (int16_t)(p->ticks - 1L), found);
+
+    if (step == COMMISSION_DONE) {
+        begin_part(p, SOLVED, s);
+    }
+    return (step == COMMISSION_FAILED) ? COMMISSION_FAILED : COMMISSION_BUSY;
+}
+
 static commission_step_t next_part(commission_spin_t *p, const commission_config_t *c,
                                    const commission_signal_t *s, commission_result_t *found)
 {
@@ -211,9 +224,12 @@ static commission_step_t next_part(commission_spin_t *p, const commission_config
         ends = (w * p->begun_radps) <= 0.0f;
         if (ends) {
             commission_emf_solve(p->emf, p->top_radps, s->dc_link_V, found);
-            return commission_motion_solve(&p->motion, found) ? COMMISSION_DONE : COMMISSION_FAILED;
         }
         break;
+    case SOLVE:
+        return solve(p, s, found);
+    case SOLVED:
+        return COMMISSION_DONE;
     default:
         ends = (p->ticks >= p->coast_ticks) || (fabsf(w) < (COAST_SHARE * fabsf(p->begun_radps)));
         break;
@@ -239,7 +255,7 @@ commission_answer_t commission_spin_tick(commission_spin_t *p, const commission_
         commission_emf_add(p->emf, found, p->angle.prompt_e_radps, frames_park(s->v_V, before),
                            i_A);
     }
-    if (p->part > TRIAL) {
+    if ((p->part > TRIAL) && (p->part < SOLVE)) {
         commission_motion_tick(&p->motion, c, found, s->position_cnt, i_A);
     }
     p->ticks++;
