@@ -56,13 +56,13 @@ CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o
 CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o,
                                   const PowerUp &power_up)
 {
-    const BoardScenario board = for_board(commission_scenario(truth, o));
-    const double ts     = control_period_s(truth);
-    const long   start  = std::lround(free_s / ts);
-    const long   chat   = std::lround(chat_s / ts);
-    const auto   most   = start + std::lround(longest_s / ts);
-    const auto   bounds = commission_config_of(truth, o);
-    const auto   current =
+    const BoardScenario board  = for_board(commission_scenario(truth, o));
+    const double        ts     = control_period_s(truth);
+    const long          start  = std::lround(free_s / ts);
+    const long          chat   = std::lround(chat_s / ts);
+    const auto          most   = start + std::lround(longest_s / ts);
+    const auto          bounds = commission_config_of(truth, o);
+    const auto          current =
         static_cast<std::uint16_t>(std::lround(100.0 * static_cast<double>(bounds.current_max_A)));
     const auto speed = static_cast<std::uint16_t>(
         std::lround(10.0 * static_cast<double>(bounds.speed_max_m_radps)));

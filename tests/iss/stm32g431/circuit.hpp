@@ -50,7 +50,8 @@ public:
         return no_current_V;
     }
 
-    static constexpr double no_current_V = 0.9 / 7.0; // docs/hardware_stm32g431.md, "Analog scaling"
+    static constexpr double no_current_V =
+        0.9 / 7.0; // docs/hardware_stm32g431.md, "Analog scaling"
 };
 
 } // namespace iss::stm32g431

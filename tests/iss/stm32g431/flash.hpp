@@ -23,7 +23,7 @@ public:
 
     /// The power fails at this cycle. Each 64 bits that are erased or written then have what was there, what was to come, or
     /// bits beyond correction.
-    void cut_power(std::uint64_t cycle);
+    void        cut_power(std::uint64_t cycle);
     std::size_t torn() const ///< 64 bits beyond correction
     {
         return torn_.size();

@@ -39,12 +39,16 @@ void ImageBoard::inject(sdre::FaultKind kind)
 app_status_t ImageBoard::status() const
 {
     app_status_t s{};
-    s.mode         = memory.get<app_mode_t>("tick_side", "mode");
-    s.fault        = memory.get<app_fault_t>("tick_side", "fault");
-    s.drive_fault  = memory.get<drive_fault_t>("tick_side", "drive_fault");
-    s.board_faults = memory.get<std::uint16_t>("shared", "board_faults");
-    s.zero_a_cnt   = memory.get<float>("tick_side", "zero_a_cnt");
-    s.zero_b_cnt   = memory.get<float>("tick_side", "zero_b_cnt");
+    s.mode                  = memory.get<app_mode_t>("tick_side", "mode");
+    s.fault                 = memory.get<app_fault_t>("tick_side", "fault");
+    s.drive_fault           = memory.get<drive_fault_t>("tick_side", "drive_fault");
+    s.board_faults          = memory.get<std::uint16_t>("shared", "board_faults");
+    s.zero_a_cnt            = memory.get<float>("tick_side", "zero_a_cnt");
+    s.zero_b_cnt            = memory.get<float>("tick_side", "zero_b_cnt");
+    s.commission.stage      = memory.get<commission_stage_t>("tick_side", "commission_stage");
+    s.commission.last_stage = memory.get<commission_stage_t>("tick_side", "commission_last_stage");
+    s.commission.reason     = memory.get<commission_reason_t>("tick_side", "commission_reason");
+    s.commission.found      = memory.get<commission_result_t>("tick_side", "commission_found");
     return s;
 }
 

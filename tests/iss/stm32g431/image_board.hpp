@@ -30,8 +30,9 @@ struct ImageBoard {
     /// Until the first tick of a start; false: it has not come within this time.
     bool start(double within_s);
     /// Breaks the processor. A reset ends it.
-    void         inject(sdre::FaultKind kind);
-    app_status_t status() const; ///< mode, faults and zeros
+    void inject(sdre::FaultKind kind);
+    app_status_t
+    status() const; ///< mode, faults, zeros, and the commissioning without its per cent
     /// Time from now until all switches are off; negative: they are not within this time.
     double opens_s(double within_s);
 

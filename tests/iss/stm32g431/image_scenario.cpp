@@ -14,18 +14,6 @@
 namespace iss::stm32g431 {
 namespace {
 
-/// The board has three shunts, also when the drive reads two.
-sdre::Scenario with_three_shunts(sdre::Scenario s)
-{
-    s.sensors.current_sensors = 3;
-    for (sdre::PlantChange &change : s.changes) {
-        if (change.sensors) {
-            change.sensors->current_sensors = 3;
-        }
-    }
-    return s;
-}
-
 std::string share(const char *what, std::uint64_t worst, std::uint64_t median, double period)
 {
     return fmt::format("  {:<34}{:>7}{:>7.1f} %{:>9}{:>7.1f} %\n", what, worst,
@@ -43,6 +31,17 @@ void check_constants(const sdre::Scenario &s)
 }
 
 } // namespace
+
+sdre::Scenario with_three_shunts(sdre::Scenario s)
+{
+    s.sensors.current_sensors = 3;
+    for (sdre::PlantChange &change : s.changes) {
+        if (change.sensors) {
+            change.sensors->current_sensors = 3;
+        }
+    }
+    return s;
+}
 
 Program read_program(const std::filesystem::path &image)
 {

@@ -24,6 +24,9 @@ struct ImageResult {
 /// An image with its places of variables; std::runtime_error when it is none.
 Program read_program(const std::filesystem::path &image);
 
+/// The board has three shunts, also when the drive reads two.
+sdre::Scenario with_three_shunts(sdre::Scenario s);
+
 /// InputError: the constants in the image are not those of the drive.
 void require_constants(const Program &program, const sdre::Drive &drive);
 

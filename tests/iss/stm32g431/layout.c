@@ -31,3 +31,7 @@ WORDS(v_V, tick_side, modes.drive.v_V);
 WORDS(d_omega, tick_side, modes.drive.answer.d_omega);
 WORDS(d_q, tick_side, modes.drive.answer.d_q);
 WORDS(d_d, tick_side, modes.drive.answer.d_d);
+WORDS(commission_stage, tick_side, modes.commission.module.stage);
+WORDS(commission_last_stage, tick_side, modes.commission.module.last_stage);
+WORDS(commission_reason, tick_side, modes.commission.module.reason);
+WORDS(commission_found, tick_side, modes.commission.module.found);

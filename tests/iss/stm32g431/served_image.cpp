@@ -11,13 +11,6 @@ namespace iss::stm32g431 {
 namespace {
 
 constexpr double longest_boot_s = 0.5; // beyond the longest boot
-
-sdre::Scenario with_three_shunts(sdre::Scenario s)
-{
-    s.sensors.current_sensors = 3;
-    return s;
-}
-
 } // namespace
 
 ServedImage::ServedImage(const sdre::Drive &drive, const sdre::Machine &machine, std::uint64_t seed,

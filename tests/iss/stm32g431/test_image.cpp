@@ -22,9 +22,9 @@ namespace {
 using Words = std::vector<std::uint16_t>;
 using sdre::Octets;
 
-constexpr double answer_s = 0.1;
-constexpr double step_s   = 5e-4;
-constexpr double ready_s  = 0.4; // boot 50 ms, offsets of the sensors 256 ms
+constexpr double answer_s   = 0.1;
+constexpr double step_s     = 5e-4;
+constexpr double ready_s    = 0.4; // boot 50 ms, offsets of the sensors 256 ms
 constexpr double cut_step_s = 20e-6;
 
 class IssImage : public ::testing::Test {
@@ -112,8 +112,9 @@ protected:
             taken += now == next ? 1 : 0;
             before = now;
         }
-        std::printf("%zu cuts: %d left the new ones, %d bits beyond correction, %d reads of these\n",
-                    after_s.size(), taken, torn, chip.flash().torn_reads());
+        std::printf(
+            "%zu cuts: %d left the new ones, %d bits beyond correction, %d reads of these\n",
+            after_s.size(), taken, torn, chip.flash().torn_reads());
         EXPECT_GE(taken, 1);
         EXPECT_GE(torn, 2);
         EXPECT_GE(chip.flash().torn_reads(), 1) << "each is an NMI";
@@ -194,7 +195,8 @@ TEST_F(IssImage, CodeInTheRamIsProtectedAndComparedWithTheFlash)
 
 TEST_F(IssImage, APowerCutLeavesTheOldParametersOrTheNewOnes)
 {
-    cut({1e-3, 2e-3, 3e-3, 4e-3, 30e-3, 45.0e-3, 50e-3}); // first page, second page, content, too late
+    cut({1e-3, 2e-3, 3e-3, 4e-3, 30e-3, 45.0e-3,
+         50e-3}); // first page, second page, content, too late
 }
 
 TEST_F(IssImage, APowerCutInEachWriteLeavesTheOldParametersOrTheNewOnes)

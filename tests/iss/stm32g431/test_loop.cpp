@@ -82,7 +82,8 @@ TEST_F(IssLoop, AComparatorOpensTheBridgeBeforeTheProgramKnows)
     EXPECT_EQ(status().fault, APP_FAULT_NONE);
     const double peak_A = served.bench().board()->peak_current_A();
     EXPECT_GT(peak_A, 44.8) << "by the network and 0.205 V";
-    EXPECT_LT(peak_A, 44.8 * 2.0 / std::sqrt(3.0) + 6.0) << "a vector between two phases, and a look later";
+    EXPECT_LT(peak_A, 44.8 * 2.0 / std::sqrt(3.0) + 6.0)
+        << "a vector between two phases, and a look later";
     pass(2.0 * period_s());
     EXPECT_EQ(status().mode, APP_MODE_FAULT);
     EXPECT_EQ(status().fault, APP_FAULT_BOARD);

@@ -20,11 +20,11 @@ constexpr std::uint32_t ccr4 = 0x40;
 constexpr std::uint32_t bdtr = 0x44;
 constexpr std::uint32_t af1  = 0x60;
 
-constexpr std::uint32_t run        = 1U;
-constexpr std::uint32_t down       = 1U << 4U;
-constexpr std::uint32_t moe        = 1U << 15U;
-constexpr std::uint32_t lock_level = 3U << 8U;
-constexpr std::uint32_t break_on   = 1U << 12U;
+constexpr std::uint32_t run           = 1U;
+constexpr std::uint32_t down          = 1U << 4U;
+constexpr std::uint32_t moe           = 1U << 15U;
+constexpr std::uint32_t lock_level    = 3U << 8U;
+constexpr std::uint32_t break_on      = 1U << 12U;
 constexpr std::uint32_t break_is_high = 1U << 13U;
 constexpr std::uint32_t locked_bits =
     0xFFU | (3U << 10U) | (3U << 12U) | (15U << 16U); // by level 1

@@ -28,7 +28,7 @@ public:
     bool enabled() const; ///< the pins follow the PWM
     void trip();          ///< the break input
     void set_break(bool active);
-    /// By comparators whose outputs are high, a bit each, the first in bit 0.
+    /// Whether the break acts with these outputs of the comparators, a bit each.
     bool breaks_at(std::uint32_t comparators) const;
 
     std::array<int, 3> on_cnt() const ///< active compare values
