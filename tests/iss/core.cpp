@@ -280,8 +280,11 @@ void Core::on_write(uc_engine *uc, std::uint64_t offset, unsigned octets, std::u
                     void *mapped)
 {
     (void)uc;
-    static_cast<Mapped *>(mapped)->device->write(static_cast<std::uint32_t>(offset),
-                                                 static_cast<std::uint32_t>(value), octets);
+    const auto *const m = static_cast<Mapped *>(mapped);
+    m->device->write(static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), octets);
+    if (m->core->exceptions_.guarded() != m->core->guarded_) {
+        m->core->stop(); // before the next block, so that the guard is watched
+    }
 }
 
 // -- running --
@@ -361,8 +364,45 @@ void Core::sleep()
     }
 }
 
+/// The region of the MPU that nobody may touch. Only writes are looked at.
+void Core::watch_stack_guard()
+{
+    if (exceptions_.guarded() == guarded_) {
+        return;
+    }
+    if (guard_hook_ != 0) {
+        need(uc_hook_del(uc_, guard_hook_));
+        guard_hook_ = 0;
+    }
+    guarded_ = exceptions_.guarded();
+    if (guarded_.first != guarded_.second) {
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above
+        need(uc_hook_add(uc_, &guard_hook_, UC_HOOK_MEM_WRITE, reinterpret_cast<void *>(&on_stack_guard),
+                         this, guarded_.first, guarded_.second - 1U));
+        need(uc_ctl_flush_tlb(uc_)); // code that was translated before does not ask
+    }
+}
+
+void Core::on_stack_guard(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+                          std::int64_t value, void *core)
+{
+    (void)type;
+    (void)octets;
+    (void)value;
+    auto *const c = static_cast<Core *>(core);
+    c->why_       = "write to " + hex(static_cast<std::uint32_t>(address)) + ", which the MPU guards";
+    c->end_       = End::failed;
+    uc_emu_stop(uc);
+}
+
+void Core::fill_stack_to(std::uint32_t address)
+{
+    put(UC_ARM_REG_SP, address);
+}
+
 void Core::execute()
 {
+    watch_stack_guard();
     end_               = End::slept; // unless a hook knows better
     const uc_err error = uc_emu_start(uc_, get(UC_ARM_REG_PC) | thumb, nowhere, 0, 0);
     if (error != UC_ERR_OK && end_ != End::failed) {

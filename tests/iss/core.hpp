@@ -118,6 +118,8 @@ public:
     void          set_word(std::uint32_t address, std::uint32_t value);
     void          set_octets(std::uint32_t address, const std::vector<std::uint8_t> &octets);
     std::uint32_t program_counter() const;
+    /// As if the program had used all of its stack down to this address.
+    void fill_stack_to(std::uint32_t address);
 
     /// Lines that each tell what no program should do, and this one did.
     const std::vector<std::string> &findings() const
@@ -145,6 +147,8 @@ private:
                            std::int64_t value, void *guard);
     static bool on_watched(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *guard);
+    static void          on_stack_guard(uc_engine *uc, uc_mem_type type, std::uint64_t address,
+                                        int octets, std::int64_t value, void *core);
     static std::uint64_t on_read(uc_engine *uc, std::uint64_t offset, unsigned octets,
                                  void *mapped);
     static void on_write(uc_engine *uc, std::uint64_t offset, unsigned octets, std::uint64_t value,
@@ -153,6 +157,7 @@ private:
     void             begin_block(std::uint32_t address, std::uint32_t octets);
     void             change_code(std::uint32_t address, const std::vector<std::uint8_t> &octets);
     const BlockCost &cost(std::uint32_t address, std::uint32_t octets);
+    void             watch_stack_guard();
     void             execute();
     void             sleep();
     void             take_exceptions();
@@ -185,6 +190,8 @@ private:
     bool                      halted_    = false;
     std::string               why_;
     std::uint32_t             hangs_at_ = 0; // 0: nowhere
+    std::pair<std::uint32_t, std::uint32_t> guarded_{0, 0}; // by guard_hook_
+    uc_hook                                 guard_hook_ = 0;
     std::vector<std::uint8_t> hangs_in_place_of_;
     std::vector<std::string>  findings_;
 };

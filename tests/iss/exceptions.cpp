@@ -21,6 +21,9 @@ constexpr std::uint32_t vtor           = 0xD08;
 constexpr std::uint32_t aircr          = 0xD0C;
 constexpr std::uint32_t ccr            = 0xD14;
 constexpr std::uint32_t shpr           = 0xD18; // of exceptions 4 to 15
+constexpr std::uint32_t mpu_ctrl = 0xD94;
+constexpr std::uint32_t mpu_rbar = 0xD9C;
+constexpr std::uint32_t mpu_rasr = 0xDA0;
 constexpr std::uint32_t cpacr          = 0xD88;
 
 constexpr std::uint32_t key_to_write = 0x05FA;
@@ -287,7 +290,18 @@ void Exceptions::write(std::uint32_t offset, std::uint32_t value, unsigned octet
         tick_began_ = cycles_;
     } else {
         others_[offset] = value;
+        set_guard();
     }
+}
+
+void Exceptions::set_guard()
+{
+    const std::uint32_t rights = others_[mpu_rasr];
+    const bool          on     = (others_[mpu_ctrl] & rights & 1U) != 0U;
+    const bool          none   = (rights >> 24U & 7U) == 0U; // AP
+    const std::uint32_t octets = 2U << (rights >> 1U & 31U);
+    const std::uint32_t from   = others_[mpu_rbar] & ~(octets - 1U);
+    guarded_                   = on && none ? std::pair(from, from + octets) : std::pair(0U, 0U);
 }
 
 } // namespace iss

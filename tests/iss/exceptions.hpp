@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "device.hpp"
@@ -55,6 +56,13 @@ public:
     bool          fpu_enabled() const;
     bool          wants_reset() const; ///< SYSRESETREQ
 
+    /// Octets that no access may touch, by the region of the MPU that was set last: from and up to; equal: none. Other
+    /// regions and other rights are not modelled.
+    std::pair<std::uint32_t, std::uint32_t> guarded() const
+    {
+        return guarded_;
+    }
+
     std::uint32_t read(std::uint32_t offset, unsigned octets) override;
     void          write(std::uint32_t offset, std::uint32_t value, unsigned octets) override;
 
@@ -67,6 +75,7 @@ private:
     std::uint32_t bits(const std::array<bool, count> &of, std::uint32_t word) const;
     void          write_bits(std::uint32_t offset, std::uint32_t value);
     void          write_control(std::uint32_t value);
+    void          set_guard();
     std::uint32_t interrupt_state() const;
 
     std::array<bool, count>                pending_{};
@@ -84,6 +93,7 @@ private:
     std::uint64_t                          tick_began_    = 0;
     std::map<std::uint32_t, std::uint32_t> others_; // registers without effect here
     const std::uint64_t                   &cycles_;
+    std::pair<std::uint32_t, std::uint32_t> guarded_{0, 0};
     bool                                   wants_reset_ = false;
 };
 

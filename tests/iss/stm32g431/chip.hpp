@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// An STM32G431 that runs its image in a circuit. A cycle is 1 / 170 MHz, also before the PLL runs.
 ///
-/// Not modelled: the protection of the stack, the flash's waits, parity of the RAM.
+/// Not modelled: the flash's waits, parity of the RAM.
 #pragma once
 
 #include <memory>

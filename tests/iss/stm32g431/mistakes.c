@@ -16,6 +16,7 @@
 #define CAN(at)      WORD(0x40006400UL + (at))
 #define CAN_BUFFER_1 WORD(0x4000A400UL + 0x2C0UL)
 #define PLACE        0x0801F000UL /* erased */
+#define GUARD        0x20004000UL
 
 enum {
     NONE = 0,
@@ -35,7 +36,8 @@ enum {
     CODE_WRITTEN,
     CAN_NOT_CONFIGURED,
     CAN_CHANGED,
-    CAN_NOT_HELD
+    CAN_NOT_HELD,
+    STACK_GUARD
 };
 
 extern uint32_t stack_top;
@@ -126,6 +128,18 @@ static void convert_and_read(void)
     (void)ADC1(0x80U);
 }
 
+/* No access to 32 octets. */
+static void guard_stack(void)
+{
+    WORD(0xE000ED98UL) = 0UL;
+    WORD(0xE000ED9CUL) = GUARD;
+    WORD(0xE000EDA0UL) = 0x10000009UL;
+    WORD(0xE000ED94UL) = 5UL;
+    __asm volatile("dsb\n\tisb");
+    for (volatile uint32_t n = 0UL; n < 2UL; n++) {
+    }
+}
+
 void start(void)
 {
     if (task != NO_CLOCK) {
@@ -205,6 +219,12 @@ void start(void)
         break;
     case CAN_NOT_HELD:
         CAN(0x94U) = 0UL; /* there is no frame */
+        break;
+    case STACK_GUARD:
+        guard_stack();
+        WORD(GUARD + 32UL) = 1UL;
+        WORD(GUARD - 4UL)  = 1UL;
+        WORD(GUARD + 28UL) = 1UL;
         break;
     default:
         break;

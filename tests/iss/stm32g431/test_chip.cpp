@@ -31,6 +31,7 @@ const Mistake mistakes[]{
     {"WatchdogKey", 12, "without its key"},
     {"NotServed", 13, "the watchdog resets"},
     {"CodeWritten", 14, "a protected page of the CCM SRAM is written, at 100013FCh"},
+    {"StackGuard", 18, "write to 2000401Ch, which the MPU guards"},
     {"CanNotConfigured", 15, "configured without INIT and CCE"},
     {"CanFrameChanged", 16, "a frame is changed while it waits"},
     {"CanFrameNotHeld", 17, "acknowledged that FIFO 0 does not hold"},

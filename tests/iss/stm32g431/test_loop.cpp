@@ -190,3 +190,24 @@ TEST_F(IssLoop, AZeroWithinItsBandIsCalibratedAndOneBeyondIsAFault)
         }
     }
 }
+
+TEST_F(IssLoop, AStackThatOverflowsOpensTheBridgeAtOnce)
+{
+    bring_to_run(0.3);
+    const auto         &symbols = ServedBoard::program().image.symbols;
+    const std::uint32_t tick    = symbols.at("app_tick") & ~1U; // its first instruction pushes
+    for (const double end_s = chip.time_s() + 2.0 * period_s();
+         chip.core().program_counter() != tick && chip.time_s() < end_s;) {
+        chip.run_to(chip.core().cycles() + 1U);
+    }
+    ASSERT_EQ(chip.core().program_counter(), tick);
+    chip.core().fill_stack_to(symbols.at("image_stack") + 8U);
+    const double open_s = image.opens_s(soon_s);
+    EXPECT_GE(open_s, 0.0);
+    EXPECT_LE(open_s, period_s());
+    ASSERT_FALSE(served.findings().empty());
+    EXPECT_NE(served.findings().front().find("which the MPU guards"), std::string::npos)
+        << served.findings().front();
+    pass(0.01);
+    EXPECT_GE(served.resets(), 1) << "by the watchdog";
+}
