@@ -199,7 +199,7 @@ static bool solve_driven(const commission_motion_t *m, commission_result_t *foun
     return found->inertia_kgm2.error < (WORST * f.x0);
 }
 
-/* Of a friction per inertia. */
+/* Turns a friction per inertia into the friction. */
 static commission_value_t times_inertia(commission_value_t rate, commission_value_t j)
 {
     const commission_value_t x = {rate.value * j.value,

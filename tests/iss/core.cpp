@@ -377,8 +377,9 @@ void Core::watch_stack_guard()
     guarded_ = exceptions_.guarded();
     if (guarded_.first != guarded_.second) {
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above
-        need(uc_hook_add(uc_, &guard_hook_, UC_HOOK_MEM_WRITE, reinterpret_cast<void *>(&on_stack_guard),
-                         this, guarded_.first, guarded_.second - 1U));
+        need(uc_hook_add(uc_, &guard_hook_, UC_HOOK_MEM_WRITE,
+                         reinterpret_cast<void *>(&on_stack_guard), this, guarded_.first,
+                         guarded_.second - 1U));
         need(uc_ctl_flush_tlb(uc_)); // code that was translated before does not ask
     }
 }
@@ -390,8 +391,8 @@ void Core::on_stack_guard(uc_engine *uc, uc_mem_type type, std::uint64_t address
     (void)octets;
     (void)value;
     auto *const c = static_cast<Core *>(core);
-    c->why_       = "write to " + hex(static_cast<std::uint32_t>(address)) + ", which the MPU guards";
-    c->end_       = End::failed;
+    c->why_ = "write to " + hex(static_cast<std::uint32_t>(address)) + ", which the MPU guards";
+    c->end_ = End::failed;
     uc_emu_stop(uc);
 }
 

@@ -147,8 +147,8 @@ private:
                            std::int64_t value, void *guard);
     static bool on_watched(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
                            std::int64_t value, void *guard);
-    static void          on_stack_guard(uc_engine *uc, uc_mem_type type, std::uint64_t address,
-                                        int octets, std::int64_t value, void *core);
+    static void on_stack_guard(uc_engine *uc, uc_mem_type type, std::uint64_t address, int octets,
+                               std::int64_t value, void *core);
     static std::uint64_t on_read(uc_engine *uc, std::uint64_t offset, unsigned octets,
                                  void *mapped);
     static void on_write(uc_engine *uc, std::uint64_t offset, unsigned octets, std::uint64_t value,
@@ -183,17 +183,17 @@ private:
     HandlerWatch                        *watch_        = nullptr;
     bool                                 watch_blocks_ = false;
     std::uint32_t                        after_        = 0; // what follows the last block in memory
-    std::uint32_t             not_taken_ = 0; // its cost is less by this, if that comes next
-    End                       end_       = End::asked;
-    bool                      stop_      = false;
-    bool                      sleeps_    = false;
-    bool                      halted_    = false;
-    std::string               why_;
-    std::uint32_t             hangs_at_ = 0; // 0: nowhere
+    std::uint32_t not_taken_ = 0; // its cost is less by this, if that comes next
+    End           end_       = End::asked;
+    bool          stop_      = false;
+    bool          sleeps_    = false;
+    bool          halted_    = false;
+    std::string   why_;
+    std::uint32_t hangs_at_ = 0;                            // 0: nowhere
     std::pair<std::uint32_t, std::uint32_t> guarded_{0, 0}; // by guard_hook_
     uc_hook                                 guard_hook_ = 0;
-    std::vector<std::uint8_t> hangs_in_place_of_;
-    std::vector<std::string>  findings_;
+    std::vector<std::uint8_t>               hangs_in_place_of_;
+    std::vector<std::string>                findings_;
 };
 
 } // namespace iss

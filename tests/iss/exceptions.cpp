@@ -21,9 +21,9 @@ constexpr std::uint32_t vtor           = 0xD08;
 constexpr std::uint32_t aircr          = 0xD0C;
 constexpr std::uint32_t ccr            = 0xD14;
 constexpr std::uint32_t shpr           = 0xD18; // of exceptions 4 to 15
-constexpr std::uint32_t mpu_ctrl = 0xD94;
-constexpr std::uint32_t mpu_rbar = 0xD9C;
-constexpr std::uint32_t mpu_rasr = 0xDA0;
+constexpr std::uint32_t mpu_ctrl       = 0xD94;
+constexpr std::uint32_t mpu_rbar       = 0xD9C;
+constexpr std::uint32_t mpu_rasr       = 0xDA0;
 constexpr std::uint32_t cpacr          = 0xD88;
 
 constexpr std::uint32_t key_to_write = 0x05FA;

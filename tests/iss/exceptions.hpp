@@ -78,23 +78,23 @@ private:
     void          set_guard();
     std::uint32_t interrupt_state() const;
 
-    std::array<bool, count>                pending_{};
-    std::array<bool, count>                enabled_{};
-    std::array<bool, count>                line_{};
-    std::array<std::uint8_t, count>        priority_{};
-    std::vector<int>                       active_;            // the running one last
-    int                                    pending_count_ = 0; // of those that can be taken
-    std::uint32_t                          vectors_       = 0;
-    std::uint32_t                          group_bits_    = 0; // PRIGROUP
-    std::uint32_t                          access_        = 0; // CPACR
-    std::uint32_t                          control_       = 0; // CCR
-    std::uint32_t                          tick_control_  = 0;
-    std::uint32_t                          tick_reload_   = 0;
-    std::uint64_t                          tick_began_    = 0;
-    std::map<std::uint32_t, std::uint32_t> others_; // registers without effect here
-    const std::uint64_t                   &cycles_;
+    std::array<bool, count>                 pending_{};
+    std::array<bool, count>                 enabled_{};
+    std::array<bool, count>                 line_{};
+    std::array<std::uint8_t, count>         priority_{};
+    std::vector<int>                        active_;            // the running one last
+    int                                     pending_count_ = 0; // of those that can be taken
+    std::uint32_t                           vectors_       = 0;
+    std::uint32_t                           group_bits_    = 0; // PRIGROUP
+    std::uint32_t                           access_        = 0; // CPACR
+    std::uint32_t                           control_       = 0; // CCR
+    std::uint32_t                           tick_control_  = 0;
+    std::uint32_t                           tick_reload_   = 0;
+    std::uint64_t                           tick_began_    = 0;
+    std::map<std::uint32_t, std::uint32_t>  others_; // registers without effect here
+    const std::uint64_t                    &cycles_;
     std::pair<std::uint32_t, std::uint32_t> guarded_{0, 0};
-    bool                                   wants_reset_ = false;
+    bool                                    wants_reset_ = false;
 };
 
 } // namespace iss

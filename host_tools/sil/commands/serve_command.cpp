@@ -21,8 +21,8 @@ struct Options {
 };
 
 /// Options of the virtual F28335 alone, and what the simulation of the other board lacks for them.
-constexpr std::pair<const char *, const char *> of_f28335[] = {
-    {"--flash", "kept flash"}, {"--boot-rom", "boot ROM"}};
+constexpr std::pair<const char *, const char *> of_f28335[] = {{"--flash", "kept flash"},
+                                                               {"--boot-rom", "boot ROM"}};
 
 void declare(OptionList &list, Options &o)
 {

@@ -44,7 +44,7 @@ public:
     void                                  began(bool sends) override;
     void                                  sent() override;
     void                                  received(const sdre::f28335::CanFrame &frame) override;
-    void failed(sdre::f28335::CanError error, bool sends) override;
+    void                                  failed(sdre::f28335::CanError error, bool sends) override;
 
 protected:
     std::uint32_t on_read(std::uint32_t offset) override;

@@ -35,10 +35,11 @@ constexpr double erasing_s = 0.03; ///< within an erasure that a request has beg
 /// Largest speeds of images that are loaded: not those of the shipped drive.
 constexpr double first_image_e_radps  = 1300.0;
 constexpr double second_image_e_radps = 1400.0;
-constexpr double speed_band_rpm       = 12.0; ///< a light rotor, and the speed of one sample: 9 r/min were seen
-constexpr double coasting_s           = 0.03; ///< from 600 r/min it still turns; a quick stop has ended
-constexpr double to_rest_s            = 0.5;
-constexpr int    counts_per_turn      = 4000; ///< four times the lines
+constexpr double speed_band_rpm =
+    12.0; ///< a light rotor, and the speed of one sample: 9 r/min were seen
+constexpr double coasting_s      = 0.03; ///< from 600 r/min it still turns; a quick stop has ended
+constexpr double to_rest_s       = 0.5;
+constexpr int    counts_per_turn = 4000; ///< four times the lines
 
 /// A word of a stored content: the flash's code does not know.
 inline void flip_stored_bit(ServedBoard &served, std::uint16_t slot, std::size_t word)
