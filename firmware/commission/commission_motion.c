@@ -138,7 +138,7 @@ static void keep_braking(commission_result_t *found, const commission_fit_t *f)
  * @return false: the shaft did not coast long enough. */
 static bool slowing_of(const commission_motion_t *m, commission_result_t *found)
 {
-    const float      per_inertia = 1.0f / found->inertia_kgm2.value;
+    const float      per_inertia = 1.0f / base_max(found->inertia_kgm2.value, 1.0e-12f);
     commission_fit_t fit;
 
     commission_fit_reset(&fit);
@@ -212,7 +212,7 @@ static commission_step_t step_of(bool good, commission_step_t next)
     return good ? next : COMMISSION_FAILED;
 }
 
-commission_step_t commission_motion_solve(const commission_motion_t *m, int16_t part,
+commission_step_t commission_motion_solve(const commission_motion_t *m, int32_t part,
                                           commission_result_t *found)
 {
     commission_step_t step = COMMISSION_BUSY;

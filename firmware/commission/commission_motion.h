@@ -70,7 +70,7 @@ enum {
  *
  * @return COMMISSION_BUSY: the next part follows. COMMISSION_FAILED: the windows do not suffice.
  */
-commission_step_t commission_motion_solve(const commission_motion_t *m, int16_t part,
+commission_step_t commission_motion_solve(const commission_motion_t *m, int32_t part,
                                           commission_result_t *found);
 
 /** Torque integral [N m s] from integrals of i_q and i_d i_q; torque [N m] from their values. */

@@ -189,8 +189,7 @@ static commission_step_t trial(commission_spin_t *p, const commission_config_t *
 static commission_step_t solve(commission_spin_t *p, const commission_signal_t *s,
                                commission_result_t *found)
 {
-    const commission_step_t step =
-        commission_motion_solve(&p->motion, (int16_t)(p->ticks - 1L), found);
+    const commission_step_t step = commission_motion_solve(&p->motion, p->ticks - 1L, found);
 
     if (step == COMMISSION_DONE) {
         begin_part(p, SOLVED, s);

@@ -167,7 +167,7 @@ void prove_commission_spin(void)
 
     any_state(COMMISSION_SPIN);
     *p                     = any_spin;
-    p->part                = (int16_t)any_long_between(0L, 9L);
+    p->part                = (int16_t)any_long_between(0L, 11L);
     p->ticks               = any_long_between(0L, TICKS_MAX);
     p->coast_ticks         = any_long_between(0L, TICKS_MAX);
     p->window_ticks        = any_long_between(0L, TICKS_MAX);

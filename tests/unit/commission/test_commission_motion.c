@@ -68,7 +68,7 @@ static void run_all(void)
 static bool solve(void)
 {
     commission_step_t step = COMMISSION_BUSY;
-    for (int16_t part = COMMISSION_MOTION_ROUGH; step == COMMISSION_BUSY; part++) {
+    for (int32_t part = COMMISSION_MOTION_ROUGH; step == COMMISSION_BUSY; part++) {
         step = commission_motion_solve(&motion, part, &known);
     }
     return step == COMMISSION_DONE;
