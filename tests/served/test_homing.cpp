@@ -30,7 +30,7 @@ protected:
         ASSERT_TRUE(write_two(APP_REGISTERS_HOMING_SPEED_ZERO, 300));
         ASSERT_TRUE(write_two(APP_REGISTERS_HOMING_ACCELERATION, 2000));
         enable(APP_CONTROL_HOMING);
-        talk(0.1);
+        talk(0.11);
         EXPECT_TRUE(has(APP_REGISTERS_REACHED));
         EXPECT_FALSE(has(APP_REGISTERS_OF_MODE));
     }
@@ -50,7 +50,7 @@ protected:
     /// Where the zero of positions is on the axis.
     double zero()
     {
-        talk(0.1);
+        talk(0.11);
         return served.turns() - now() * count;
     }
     double mark_after(double edge, int way) const
