@@ -24,8 +24,7 @@ constexpr double run_s   = 0.328;
 // A command has arrived and been answered well within so long.
 constexpr double command_s = 0.012;
 // Chosen: ten polls a second, as an operator's display would.
-constexpr double chat_s   = 0.1;
-constexpr long   attempts = 4; // chosen: starts until one is as rehearsed
+constexpr double chat_s = 0.1;
 
 long ticks_in(double time_s, double period_s)
 {
@@ -45,12 +44,12 @@ bool running(const BoardRun &run)
     return run.drive().state == DRIVE_RUN;
 }
 
-/// From power-up to the first tick in RUN; its number. The command to run goes out `later` ticks after its time.
-long bring_to_run(BoardRun &run, int speed_tenths, long later)
+/// From power-up to the first tick in RUN; its number.
+long bring_to_run(BoardRun &run, int speed_tenths)
 {
     const double period_s      = run.bench().period_s();
     const long   speed_tick    = ticks_in(speed_s, period_s);
-    const long   run_tick      = ticks_in(run_s, period_s) + later;
+    const long   run_tick      = ticks_in(run_s, period_s);
     const long   command_ticks = ticks_in(command_s, period_s);
     while (!running(run)) {
         const long tick = run.bench().tick();
@@ -177,22 +176,26 @@ BoardResult simulate_on_board(const Scenario &scenario, const PowerUp &power_up,
     BoardResult out;
     out.notes = b.notes;
     // In the rehearsal the shaft passes the encoder's edges at other times. They take their time in the firmware, so that a
-    // command on the limit of two ticks may be read in the other one.
+    // command on the limit of two ticks may be read in the other one. The later start holds then.
     std::unique_ptr<BoardRun> run;
-    long                      start_tick = 0;
-    long                      later      = -1;
-    do {
-        later++;
-        if (later == attempts) {
-            throw InputError("--board: the start of the firmware does not repeat itself");
-        }
+    const auto                begin = [&](long start) {
         run.reset();
-        start_tick = bring_to_run(*power_up(b, MotorBench::never), first_tenths, later);
-        run        = power_up(b, start_tick);
-    } while (bring_to_run(*run, first_tenths, later) != start_tick);
+        run = power_up(b, start);
+        return bring_to_run(*run, first_tenths);
+    };
+    long start_tick = begin(MotorBench::never);
+    long began      = begin(start_tick);
+    if (began > start_tick) {
+        start_tick = began;
+        began      = begin(start_tick);
+    }
+    const bool waits = began < start_tick;
+    if (began > start_tick || began + 1 < start_tick || (waits && !run->step())) {
+        throw InputError("--board: the start of the firmware does not repeat itself");
+    }
     const MotorBench &bench = run->bench();
     // The first command waits until the gates' supplies are charged, those of a running drive do not.
-    const long latency_ticks = start_tick - ticks_in(run_s, control_period_s(s.drive)) - later -
+    const long latency_ticks = start_tick - ticks_in(run_s, control_period_s(s.drive)) -
                                board_constants(s.drive).config.gate.precharge_ticks;
     Commands commands(s, ticks_of(s), latency_ticks);
     out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {

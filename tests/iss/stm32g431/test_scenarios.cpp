@@ -20,39 +20,62 @@ INSTANTIATE_TEST_SUITE_P(Shipped, IssScenario,
                          ::testing::Values("m2310p_speed_step", "m2310p_load_step"),
                          [](const auto &i) { return std::string(i.param); });
 
+/// A metric lies there with each of the seeds.
+struct Range {
+    double least = 1e30;
+    double most  = -1e30;
+
+    void add(double x)
+    {
+        least = std::min(least, x);
+        most  = std::max(most, x);
+    }
+    void expect(double x, double margin) const
+    {
+        EXPECT_GE(x, least - margin);
+        EXPECT_LE(x, most + margin);
+    }
+};
+
 } // namespace
 
-TEST_P(IssScenario, AgreesWithTheApplicationOnTheHost)
+TEST_P(IssScenario, IsAsTheApplicationOnTheHostWithSeveralSeeds)
 {
-    const sdre::Scenario s =
+    sdre::Scenario s =
         sdre::read_scenario_file(std::string(ISS_SCENARIOS) + "/" + GetParam() + ".toml");
-    const ImageResult       image = simulate_image(s, read_program(ISS_IMAGE));
-    const sdre::BoardResult host  = sdre::simulate_on_board(s, sdre::BoardKind::api);
-
+    const ImageResult image = simulate_image(s, read_program(ISS_IMAGE));
     EXPECT_EQ(image.board.findings, std::vector<std::string>{});
     EXPECT_EQ(image.board.result.fault, 0);
     EXPECT_EQ(image.board.modbus_errors, 0);
     EXPECT_GE(image.board.modbus_answers, 2);
-    EXPECT_EQ(host.result.fault, 0);
-    const auto of_image = sdre::measure(s, image.board.result.trace);
-    const auto of_host  = sdre::measure(s, host.result.trace);
-    ASSERT_EQ(of_image.size(), of_host.size());
-    for (std::size_t n = 0; n < of_host.size(); n++) {
-        ASSERT_TRUE(of_image[n].settling_time_s && of_host[n].settling_time_s) << n;
-        std::printf("%s: settling %.2f and %.2f ms, overshoot %.2f and %.2f, ripple %.3f and "
-                    "%.3f rad/s, peak %.2f and %.2f A\n",
+    const auto         of_image = sdre::measure(s, image.board.result.trace);
+    std::vector<Range> settling_s(of_image.size());
+    std::vector<Range> peak_A(of_image.size());
+    std::vector<Range> ripple_e_radps(of_image.size());
+    for (s.seed = 1; s.seed <= 8; s.seed++) {
+        const sdre::BoardResult host = sdre::simulate_on_board(s, sdre::BoardKind::api);
+        ASSERT_EQ(host.result.fault, 0);
+        const auto of_host = sdre::measure(s, host.result.trace);
+        for (std::size_t n = 0; n < of_host.size(); n++) {
+            ASSERT_TRUE(of_host[n].settling_time_s);
+            settling_s[n].add(*of_host[n].settling_time_s);
+            peak_A[n].add(of_host[n].peak_current_A);
+            ripple_e_radps[n].add(of_host[n].ripple_e_radps);
+        }
+    }
+    for (std::size_t n = 0; n < of_image.size(); n++) {
+        ASSERT_TRUE(of_image[n].settling_time_s) << n;
+        std::printf("%s: settling %.2f of %.2f to %.2f ms, ripple %.3f of %.3f to %.3f rad/s, peak "
+                    "%.2f of %.2f to %.2f A\n",
                     s.measures[n].name.c_str(), 1e3 * *of_image[n].settling_time_s,
-                    1e3 * *of_host[n].settling_time_s, of_image[n].overshoot_e_radps,
-                    of_host[n].overshoot_e_radps, of_image[n].ripple_e_radps,
-                    of_host[n].ripple_e_radps, of_image[n].peak_current_A,
-                    of_host[n].peak_current_A);
-        EXPECT_NEAR(*of_image[n].settling_time_s, *of_host[n].settling_time_s, 0.5e-3) << n;
-        EXPECT_NEAR(of_image[n].peak_current_A, of_host[n].peak_current_A,
-                    0.02 * s.drive.motor.max_current_A)
-            << n;
+                    1e3 * settling_s[n].least, 1e3 * settling_s[n].most, of_image[n].ripple_e_radps,
+                    ripple_e_radps[n].least, ripple_e_radps[n].most, of_image[n].peak_current_A,
+                    peak_A[n].least, peak_A[n].most);
+        settling_s[n].expect(*of_image[n].settling_time_s, 0.3e-3);
+        peak_A[n].expect(of_image[n].peak_current_A, 0.02 * s.drive.motor.max_current_A);
         // The end of the first measure of the speed steps may see the next command, a tick early.
-        const double ripple_e_radps = s.measures[n].name == "rated_speed" ? 1.5 : 0.2;
-        EXPECT_NEAR(of_image[n].ripple_e_radps, of_host[n].ripple_e_radps, ripple_e_radps) << n;
+        ripple_e_radps[n].expect(of_image[n].ripple_e_radps,
+                                 s.measures[n].name == "rated_speed" ? 1.5 : 0.2);
     }
     std::printf("%s", cycles_text(image).c_str());
     EXPECT_GE(image.interrupts.size() + 2, image.board.result.trace.size());

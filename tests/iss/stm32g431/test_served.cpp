@@ -118,7 +118,7 @@ TEST(IssServe, AClientReadsWhatItIsRunsItAndStopsIt)
 TEST_F(IssBench, TheControlPortRefusesWhatTheBoardLacks)
 {
     for (const char *line :
-         {"switch negative -3", "switch positive 3", "can open", "holding_brake 1 0.1 0.1"}) {
+         {"switch negative -3", "switch positive 3", "holding_brake 1 0.1 0.1"}) {
         EXPECT_NE(ask(line).value("error", "").find("has none"), std::string::npos) << line;
     }
     EXPECT_FALSE(ask("state").contains("error"));
