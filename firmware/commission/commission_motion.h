@@ -58,12 +58,10 @@ void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length
 void commission_motion_tick(commission_motion_t *m, const commission_config_t *c,
                             const commission_result_t *known, int32_t position_cnt, dq_t i_A);
 
-/** Parts of the solution: one of them is enough work for a period. */
-enum {
-    COMMISSION_MOTION_ROUGH = 0, /**< inertia without friction */
-    COMMISSION_MOTION_SLOWING,   /**< friction per inertia, which `found` has until the next part */
-    COMMISSION_MOTION_BOTH
-};
+/* Parts of the solution: one of them is enough work for a period. The third one is inertia and
+ * friction. */
+#define COMMISSION_MOTION_ROUGH   0 /**< inertia without friction */
+#define COMMISSION_MOTION_SLOWING 1 /**< friction per inertia; `found` has it until the third */
 
 /**
  * @brief Computes a part of inertia and friction, EQ-COMMISSION-11, in their order.
