@@ -61,7 +61,8 @@ TEST_F(CyclicVelocity, ASineIsFollowedAnInterpolationPeriodLater)
     // A request of 13 characters and the silence after it take 3.0 ms; a millisecond is the drive's.
     EXPECT_GE(delay_s(), 0.020);
     EXPECT_LE(delay_s(), 0.0241);
-    EXPECT_LE(rms(delay_s()), 0.3); // the chord of an arc alone is off by 0.3 in its middle
+    EXPECT_LE(rms(delay_s()),
+              sine_band_e_radps); // the chord of an arc alone is off by 0.3 in its middle
     EXPECT_EQ(input(APP_REGISTERS_MODE_NOW), APP_CONTROL_CYCLIC_VELOCITY);
     EXPECT_TRUE(served.findings().empty());
 }
@@ -81,7 +82,8 @@ TEST_F(CyclicVelocity, TheOffsetIsAddedAndTheModeIsTakenOverInARun)
 {
     begin(5);
     ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 1000.0));
-    ASSERT_TRUE(write_speed(APP_REGISTERS_VELOCITY_OFFSET, 10.0 * 100.0 * 60.0 / circle / 2.0));
+    ASSERT_TRUE(write_speed(APP_REGISTERS_VELOCITY_OFFSET,
+                            10.0 * 100.0 * 60.0 / circle / served.drive().motor.pole_pairs));
     pass(0.2);
     EXPECT_NEAR(served.plant_state().omega_e_radps, 200.0, 1.0);
     EXPECT_NE(input(APP_REGISTERS_STATUSWORD) & APP_REGISTERS_REACHED, 0);
