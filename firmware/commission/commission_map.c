@@ -90,22 +90,20 @@ static void set_means(const commission_inductance_t *l, const commission_config_
     found->lq_H = bin_H(&q, noise, c->ts_s);
 }
 
-static void set_map(const commission_inductance_t *l, const commission_config_t *c,
-                    const commission_result_t *found, commission_map_t *map)
+/* One current range of the map. */
+static void set_range(const commission_inductance_t *l, const commission_config_t *c,
+                      const commission_result_t *found, commission_map_t *map, int16_t k)
 {
     const float noise = commission_inductance_noise(l);
 
-    for (int16_t k = 0; k < COMMISSION_BINS; k++) {
-        for (int16_t row = 0; row < 2; row++) {
-            map->ld[row][k] =
-                share_of(bin_H(&l->bins[row][k], noise, c->ts_s).value, found->ld_H.value);
-        }
-        for (int16_t row = 0; row < 3; row++) {
-            map->lq[row][k] =
-                share_of(bin_H(&l->bins[row + 2][k], noise, c->ts_s).value, found->lq_H.value);
-        }
+    for (int16_t row = 0; row < 2; row++) {
+        map->ld[row][k] =
+            share_of(bin_H(&l->bins[row][k], noise, c->ts_s).value, found->ld_H.value);
     }
-    map->step_A = SHARE * c->current_max_A / (float)COMMISSION_BINS;
+    for (int16_t row = 0; row < 3; row++) {
+        map->lq[row][k] =
+            share_of(bin_H(&l->bins[row + 2][k], noise, c->ts_s).value, found->lq_H.value);
+    }
 }
 
 /* Ld above Lq means that the assumed d axis is the q axis of a reluctance motor. The d current then
@@ -123,19 +121,42 @@ static void turn_axes(commission_inductance_t *l, commission_result_t *found)
     l->turned = true;
 }
 
-static commission_answer_t finish_map(commission_inductance_t *l, const commission_config_t *c,
-                                      commission_result_t *found, commission_map_t *map)
+static commission_step_t finish_means(commission_inductance_t *l, const commission_config_t *c,
+                                      commission_result_t *found)
 {
+    commission_step_t step = COMMISSION_BUSY;
+
     set_means(l, c, found);
     const bool positive = (found->ld_H.value > 0.0f) && (found->lq_H.value > 0.0f);
     const bool crossed  = positive && (found->ld_H.value > (CROSSED * found->lq_H.value));
 
     if (crossed && !l->turned) {
         turn_axes(l, found);
-        return commission_rest(COMMISSION_BUSY);
+    } else if (positive && !crossed) {
+        l->axis++;
+    } else {
+        step = COMMISSION_FAILED;
     }
-    set_map(l, c, found, map);
-    return commission_rest((positive && !crossed) ? COMMISSION_DONE : COMMISSION_FAILED);
+    return step;
+}
+
+/* The means, and then a range in each period: all of them at once take longer than one of 50 us. */
+static commission_answer_t finish_map(commission_inductance_t *l, const commission_config_t *c,
+                                      commission_result_t *found, commission_map_t *map)
+{
+    const int16_t     range = (int16_t)(l->axis - (COMMISSION_MAP_WAVES + 1));
+    commission_step_t step  = COMMISSION_BUSY;
+
+    if (range < 0) {
+        step = finish_means(l, c, found);
+    } else if (range < COMMISSION_BINS) {
+        set_range(l, c, found, map, range);
+        l->axis++;
+    } else {
+        map->step_A = SHARE * c->current_max_A / (float)COMMISSION_BINS;
+        step        = COMMISSION_DONE;
+    }
+    return commission_rest(step);
 }
 
 /* Shift of the wave: its mean current brakes a moving rotor. Without it the wave would drive the
