@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
     commission_wave_t  wave;
-    int16_t            axis;      /**< LOOK: 0 .. 3, MAP: COMMISSION_MAP_WAVES, then its end */
+    int16_t            axis;      /**< LOOK: 0 .. 3, MAP: 0 .. COMMISSION_MAP_WAVES + 1 */
     frames_angle_t     direction; /**< of the wave in LOOK */
     int16_t            wait_ticks;
     commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */

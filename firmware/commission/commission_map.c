@@ -90,20 +90,22 @@ static void set_means(const commission_inductance_t *l, const commission_config_
     found->lq_H = bin_H(&q, noise, c->ts_s);
 }
 
-/* One current range of the map. */
-static void set_range(const commission_inductance_t *l, const commission_config_t *c,
-                      const commission_result_t *found, commission_map_t *map, int16_t k)
+static void set_map(const commission_inductance_t *l, const commission_config_t *c,
+                    const commission_result_t *found, commission_map_t *map)
 {
     const float noise = commission_inductance_noise(l);
 
-    for (int16_t row = 0; row < 2; row++) {
-        map->ld[row][k] =
-            share_of(bin_H(&l->bins[row][k], noise, c->ts_s).value, found->ld_H.value);
+    for (int16_t k = 0; k < COMMISSION_BINS; k++) {
+        for (int16_t row = 0; row < 2; row++) {
+            map->ld[row][k] =
+                share_of(bin_H(&l->bins[row][k], noise, c->ts_s).value, found->ld_H.value);
+        }
+        for (int16_t row = 0; row < 3; row++) {
+            map->lq[row][k] =
+                share_of(bin_H(&l->bins[row + 2][k], noise, c->ts_s).value, found->lq_H.value);
+        }
     }
-    for (int16_t row = 0; row < 3; row++) {
-        map->lq[row][k] =
-            share_of(bin_H(&l->bins[row + 2][k], noise, c->ts_s).value, found->lq_H.value);
-    }
+    map->step_A = SHARE * c->current_max_A / (float)COMMISSION_BINS;
 }
 
 /* Ld above Lq means that the assumed d axis is the q axis of a reluctance motor. The d current then
@@ -140,21 +142,16 @@ static commission_step_t finish_means(commission_inductance_t *l, const commissi
     return step;
 }
 
-/* The means, and then a range in each period: all of them at once take longer than one of 50 us. */
+/* The means and the map have a period each: together they take longer than one of 50 us. */
 static commission_answer_t finish_map(commission_inductance_t *l, const commission_config_t *c,
                                       commission_result_t *found, commission_map_t *map)
 {
-    const int16_t     range = (int16_t)(l->axis - (COMMISSION_MAP_WAVES + 1));
-    commission_step_t step  = COMMISSION_BUSY;
+    commission_step_t step = COMMISSION_DONE;
 
-    if (range < 0) {
+    if (l->axis == COMMISSION_MAP_WAVES) {
         step = finish_means(l, c, found);
-    } else if (range < COMMISSION_BINS) {
-        set_range(l, c, found, map, range);
-        l->axis++;
     } else {
-        map->step_A = SHARE * c->current_max_A / (float)COMMISSION_BINS;
-        step        = COMMISSION_DONE;
+        set_map(l, c, found, map);
     }
     return commission_rest(step);
 }

@@ -118,7 +118,7 @@ void prove_commission_map(void)
 {
     any_state(COMMISSION_MAP);
     any_wave();
-    state.work.inductance.axis   = (int16_t)any_long_between(0L, COMMISSION_MAP_WAVES + 1 + COMMISSION_BINS);
+    state.work.inductance.axis   = (int16_t)any_long_between(0L, COMMISSION_MAP_WAVES + 1);
     state.work.inductance.turned = any_bool();
     tick();
 }
