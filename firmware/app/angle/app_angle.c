@@ -178,6 +178,9 @@ APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw
     if (reading->index_fault) {
         a->reference = APP_ANGLE_NONE;
     }
+    if (a->correct_ticks > 0U) {
+        app_angle_approach(a);
+    }
     reading->theta_e_rad     = app_angle_at(a, position_cnt, 1U);
     reading->band_rad        = 0.0f;
     reading->edge_of_pattern = 0;

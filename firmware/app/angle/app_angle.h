@@ -27,9 +27,13 @@
  * index mark or by alignment. The electrical angle of the index is a constant of motor and encoder.
  *
  * Later index pulses check the counter. A small difference means missed edges: the index corrects
- * the angle. A larger difference is a fault of index or counter, as a correction would cause a
- * torque step. The speed comes from raw positions, so a correction does not change it. After the
- * first index, every turn must have one.
+ * the angle. A larger difference is a fault of index or counter. After the first index, every turn
+ * must have one. The speed comes from raw positions, so a correction does not change it.
+ *
+ * A correction is no step: the law would take it for a movement. The zero approaches the one by the
+ * index, z, with k = n .. 0 periods left:
+ *
+ *     theta_zero = z + k step, |step| <= CORRECT_radps Ts                          EQ-APP-ANGLE-6
  *
  * A position jump means lost or wrong counts: it drops the reference in every mode. A running drive
  * continues with its present angle, and the next index corrects it. Without an index the next run
@@ -73,6 +77,8 @@ typedef struct {
     app_angle_reference_t     reference;
     uint16_t                  zero_cnt;       /**< position at which the angle is zero_theta_rad */
     float                     zero_theta_rad; /**< [0, 2 pi) */
+    uint16_t                  correct_ticks;  /**< left of a correction */
+    float                     correct_step_rad; /**< of theta_zero, in each of them */
     uint16_t                  before_cnt;
     bool                      have_before;
     int16_t                   turned_cnt; /**< counts in the previous period */
@@ -113,7 +119,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
 /**
  * @brief Takes one valid sample with its position within a turn.
  *
- * Context: control ISR, once per tick. At most one division.
+ * Context: control ISR, once per tick. At most one division; three more where the index corrects.
  */
 APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw,
                                        app_angle_reading_t *reading);

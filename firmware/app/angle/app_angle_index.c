@@ -6,6 +6,10 @@
 
 #define POLE_PAIRS 64U     /* keeps half counts times pole pairs within 32 bits */
 #define POSITIONS  65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
+/* Chosen: a false electrical speed below the noise of any drive. 0.126 rad take half a second. */
+#define CORRECT_radps 0.25f
+#define MOST_PERIODS  65000.0f
+#define LEFT_cnt      16000.0f /* a quarter of the largest turn */
 
 static bool turn_ok(uint32_t positions)
 {
@@ -55,6 +59,8 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->reference          = APP_ANGLE_NONE;
     a->zero_cnt           = 0U;
     a->zero_theta_rad     = 0.0f;
+    a->correct_ticks      = 0U;
+    a->correct_step_rad   = 0.0f;
     a->before_cnt         = 0U;
     a->have_before        = false;
     a->turned_cnt         = 0;
@@ -74,18 +80,48 @@ static void refer_to_index(app_angle_t *a, uint16_t index_cnt)
     a->reference      = APP_ANGLE_INDEX;
     a->zero_cnt       = index_cnt;
     a->zero_theta_rad = a->config->index_theta_e_rad;
+    a->correct_ticks  = 0U;
+}
+
+/* Difference of the angle at the index from the one that the index has. */
+static float index_error_rad(const app_angle_t *a, uint16_t index_cnt)
+{
+    return frames_wrap(app_angle_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
 }
 
 /* Distance of the index from its expected position [counts]. After an alignment only the electrical
  * angle is known, not the pole pair. */
 static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
 {
-    if (a->reference == APP_ANGLE_INDEX) {
-        return (float)app_angle_turned_cnt(a->positions, a->zero_cnt, index_cnt);
-    }
-    const float error_rad =
-        frames_wrap(app_angle_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
-    return error_rad / a->rad_per_cnt;
+    return (a->reference == APP_ANGLE_INDEX)
+               ? (float)app_angle_turned_cnt(a->positions, a->zero_cnt, index_cnt)
+               : (index_error_rad(a, index_cnt) / a->rad_per_cnt);
+}
+
+/* Begins EQ-APP-ANGLE-6: this period's angle is still what the zero before gives. */
+static void correct(app_angle_t *a, uint16_t index_cnt)
+{
+    const float error_rad = index_error_rad(a, index_cnt);
+    const float periods   = fabsf(error_rad) / (CORRECT_radps * a->ts_s);
+
+    refer_to_index(a, index_cnt);
+    a->correct_ticks    = (uint16_t)(base_clamp(periods, 0.0f, MOST_PERIODS) + 1.0f);
+    a->correct_step_rad = error_rad / (float)a->correct_ticks;
+}
+
+void app_angle_approach(app_angle_t *a)
+{
+    a->correct_ticks  = (uint16_t)(a->correct_ticks - 1U);
+    a->zero_theta_rad = app_angle_in_turn(a->config->index_theta_e_rad +
+                                          ((float)a->correct_ticks * a->correct_step_rad));
+}
+
+int16_t app_angle_left_cnt(const app_angle_t *a)
+{
+    const float left_cnt = (float)a->correct_ticks * a->correct_step_rad / a->rad_per_cnt;
+    const float half     = (left_cnt < 0.0f) ? -0.5f : 0.5f;
+
+    return (int16_t)base_clamp(left_cnt + half, -LEFT_cnt, LEFT_cnt);
 }
 
 bool app_angle_take_index(app_angle_t *a, uint16_t index_cnt)
@@ -101,9 +137,9 @@ bool app_angle_take_index(app_angle_t *a, uint16_t index_cnt)
         return false;
     }
     if (a->reference == APP_ANGLE_ALIGNED) {
-        refer_to_index(a, index_cnt);
+        correct(a, index_cnt);
     } else if (!base_in_range(error_cnt, -small_cnt, small_cnt)) {
-        refer_to_index(a, index_cnt);
+        correct(a, index_cnt);
         a->corrections = (uint16_t)(a->corrections + 1U);
     }
     return true;
@@ -114,6 +150,7 @@ void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad)
     a->reference      = APP_ANGLE_ALIGNED;
     a->zero_cnt       = position_cnt;
     a->zero_theta_rad = theta_e_rad;
+    a->correct_ticks  = 0U;
 }
 
 void app_angle_drop(app_angle_t *a)

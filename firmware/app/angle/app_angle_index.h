@@ -45,4 +45,16 @@ static inline float app_angle_at(const app_angle_t *a, uint16_t position_cnt, ui
  * a turn. */
 bool app_angle_take_index(app_angle_t *a, uint16_t index_cnt);
 
+/** EQ-APP-ANGLE-6, while correct_ticks is above 0. Context: control ISR, once per tick. */
+void app_angle_approach(app_angle_t *a);
+
+/** Counts by which the angle is too large until the correction ends. Context: control ISR. */
+int16_t app_angle_left_cnt(const app_angle_t *a);
+
+/** Angle of the zero after the correction, 0 .. 2 pi. */
+static inline float app_angle_zero_rad(const app_angle_t *a)
+{
+    return (a->correct_ticks > 0U) ? a->config->index_theta_e_rad : a->zero_theta_rad;
+}
+
 #endif /* APP_ANGLE_INDEX_H */

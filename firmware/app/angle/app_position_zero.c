@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_position.h"
 
+#include "app_angle_index.h"
 #include "frames.h"
 
 #define TURNS_NEAR 64.0f /* most electrical turns in a shaft turn */
@@ -45,7 +46,7 @@ void app_position_find_zero(app_position_t *p, const app_angle_t *angle)
 {
     const int16_t turned_cnt =
         app_angle_turned_cnt(angle->positions, angle->zero_cnt, angle->before_cnt);
-    const float middle_rad = angle->zero_theta_rad + (0.5f * p->rad_per_cnt); /* below 3 pi */
+    const float middle_rad = app_angle_zero_rad(angle) + (0.5f * p->rad_per_cnt); /* below 3 pi */
     const float theta_rad  = frames_wrap(middle_rad);
     const float way_rad    = (float)turned_cnt * p->rad_per_cnt;
     const float turns      = (p->actual.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_homing.h"
 
+#include "app_angle_index.h"
+
 #define WITH_INDEX   14 /* methods 1 to 14 go on to the index mark */
 #define WITHOUT_LESS 16 /* 17 to 30 are the same without it */
 #define INDEX_BACK   33
@@ -65,12 +67,13 @@ void app_homing_reset(app_homing_t *h)
     h->known      = false;
 }
 
-/* EQ-APP-HOMING-1 */
-static void attain(app_homing_t *h, const app_objects_t *o, const app_position_t *p,
+/* EQ-APP-HOMING-1. A correction of the angle goes on after it: what is left of it is no way. */
+static void attain(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen,
                    int32_t home_cnt)
 {
-    const int32_t    zero_cnt = app_position_held(home_cnt) + app_position_held(o->home_offset_cnt);
-    const position_t zero     = app_position_at(p, app_position_held(zero_cnt));
+    const int32_t    at_cnt   = home_cnt - (int32_t)app_angle_left_cnt(seen->angle);
+    const int32_t    zero_cnt = app_position_held(at_cnt) + app_position_held(o->home_offset_cnt);
+    const position_t zero     = app_position_at(seen->position, app_position_held(zero_cnt));
 
     if ((zero.turns <= APP_POSITION_ZERO_TURNS) && (zero.turns >= -APP_POSITION_ZERO_TURNS)) {
         h->zero  = zero;
@@ -83,7 +86,7 @@ static void attain(app_homing_t *h, const app_objects_t *o, const app_position_t
 
 static void attain_here(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
 {
-    attain(h, o, seen->position, app_position_cnt(seen->position, &seen->position->actual));
+    attain(h, o, seen, app_position_cnt(seen->position, &seen->position->actual));
 }
 
 static void begin_search(app_homing_t *h, const app_objects_t *o, const app_homing_seen_t *seen)
@@ -155,7 +158,7 @@ static void search_mark(app_homing_t *h, const app_objects_t *o, const app_homin
     if (passes_mark(h, seen->angle, goes_back(h, o))) {
         const int32_t here_cnt = app_position_cnt(seen->position, &seen->position->actual);
 
-        attain(h, o, seen->position, here_cnt - (int32_t)h->off_cnt);
+        attain(h, o, seen, here_cnt - (int32_t)h->off_cnt);
     }
 }
 

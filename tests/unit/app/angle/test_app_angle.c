@@ -190,6 +190,23 @@ static void test_alignment_puts_the_zero_here_until_the_index(void)
     assert_angle(2.0 * two_pi * -99.5 / 10000.0, at(4221).theta_e_rad);
 }
 
+/* EQ-APP-ANGLE-6 at a standing shaft: equal steps of at most a quarter of a rad/s from one angle to the other, both in counts. */
+static void assert_approach(int position, double from_cnt, double to_cnt, float now_rad)
+{
+    const double per_cnt = 2.0 * two_pi / 10000.0;
+    const double way     = (to_cnt - from_cnt) * per_cnt;
+    const int    ticks   = (int)floor(fabs(way) / (0.25 * (double)TS_S)) + 1;
+
+    assert_angle((from_cnt * per_cnt) + (way / ticks), now_rad);
+    for (int n = 2; n <= ticks; n++) {
+        assert_angle((from_cnt * per_cnt) + (way * n / ticks), at(position).theta_e_rad);
+    }
+    for (int n = 0; n < 3; n++) {
+        assert_angle(to_cnt * per_cnt, at(position).theta_e_rad);
+    }
+    TEST_ASSERT_TRUE(fabs(way) / ticks <= 0.25 * (double)TS_S);
+}
+
 /* After alignment the index may be at any of the pole pairs. */
 static void test_index_after_alignment_takes_over_within_its_bound(void)
 {
@@ -205,7 +222,7 @@ static void test_index_after_alignment_takes_over_within_its_bound(void)
             if ((error >= -99) && (error <= 99)) {
                 TEST_ASSERT_FALSE(r.index_fault);
                 TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
-                assert_angle(2.0 * two_pi * 10.5 / 10000.0, r.theta_e_rad);
+                assert_approach((index + 10) % 10000, 10.5 + error, 10.5, r.theta_e_rad);
             }
             if ((error < -101) || (error > 101)) {
                 TEST_ASSERT_TRUE(r.index_fault);
@@ -281,7 +298,7 @@ static void test_later_index_corrects_or_faults_by_its_distance(void)
         } else if (distance <= 100) {
             TEST_ASSERT_FALSE(r.index_fault);
             TEST_ASSERT_EQUAL_UINT(1U, angle.corrections);
-            assert_angle(2.0 * two_pi * 20.5 / 10000.0, r.theta_e_rad);
+            assert_approach(position, 20.5 + error, 20.5, r.theta_e_rad);
         } else {
             TEST_ASSERT_TRUE(r.index_fault);
             TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, angle.reference);
@@ -307,6 +324,38 @@ static void test_corrections_are_counted_until_the_start(void)
     }
     setUp();
     TEST_ASSERT_EQUAL_UINT(0U, angle.corrections);
+}
+
+/* A correction goes on over the next turn, and another one begins where it has come to. */
+static void test_correction_begins_where_the_one_before_is(void)
+{
+    (void)at_with_index(100, 0);
+    (void)at_with_index(100, 80);
+    const float before_rad = at(100).theta_e_rad;
+    const float then_rad   = at_with_index(100, 40).theta_e_rad;
+
+    TEST_ASSERT_EQUAL_UINT(2U, angle.corrections);
+    TEST_ASSERT_DOUBLE_WITHIN(1.01 * (double)TS_S, (double)before_rad, (double)then_rad);
+    for (int n = 0; n < 3000; n++) {
+        (void)at(100);
+    }
+    assert_angle(2.0 * two_pi * 60.5 / 10000.0, at(100).theta_e_rad);
+}
+
+static void test_alignment_and_a_first_index_end_a_correction(void)
+{
+    (void)at_with_index(100, 0);
+    (void)at_with_index(100, 80);
+    app_angle_align(&angle, 100U, 0.0f);
+    (void)at(100);
+    assert_angle(2.0 * two_pi * 0.5 / 10000.0, at(100).theta_e_rad);
+
+    setUp();
+    (void)at_with_index(100, 0);
+    (void)at_with_index(100, 80);
+    app_angle_drop(&angle);
+    assert_angle(2.0 * two_pi * 10.5 / 10000.0, at_with_index(100, 90).theta_e_rad);
+    assert_angle(2.0 * two_pi * 10.5 / 10000.0, at(100).theta_e_rad);
 }
 
 static void test_index_fault_lasts_one_sample(void)
@@ -617,6 +666,8 @@ int main(void)
     RUN_TEST(test_later_index_corrects_or_faults_by_its_distance);
     RUN_TEST(test_correction_does_not_show_in_the_speed);
     RUN_TEST(test_corrections_are_counted_until_the_start);
+    RUN_TEST(test_correction_begins_where_the_one_before_is);
+    RUN_TEST(test_alignment_and_a_first_index_end_a_correction);
     RUN_TEST(test_index_fault_lasts_one_sample);
     RUN_TEST(test_edge_times_give_angle_and_speed);
     RUN_TEST(test_counts_that_come_in_plenty_have_a_band_of_a_quarter);

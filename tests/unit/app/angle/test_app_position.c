@@ -126,6 +126,26 @@ static void test_the_zero_stays_when_the_reference_gets_better(void)
     TEST_ASSERT_EQUAL_INT32(before, shown());
 }
 
+/* A zero that is found during a correction is the one after it. */
+static void test_a_correction_does_not_move_the_zero(void)
+{
+    const app_angle_config_t mark = {.index_theta_e_rad = 1.0f};
+
+    angle.config           = &mark;
+    angle.reference        = APP_ANGLE_INDEX;
+    angle.correct_ticks    = 300U;
+    angle.correct_step_rad = 2.0e-4f;
+    angle.zero_theta_rad   = 1.06f;
+    sample_at((int64_t)angle.zero_cnt + 400);
+    TEST_ASSERT_TRUE(position.known);
+    angle.correct_ticks  = 0U;
+    angle.zero_theta_rad = 1.0f;
+    for (int way = -2000; way <= 2000; way += 100) {
+        turn_to((int64_t)angle.zero_cnt + way);
+        TEST_ASSERT_EQUAL_INT32(way, shown());
+    }
+}
+
 static void test_lost_counts_lose_the_zero_until_it_is_found_again(void)
 {
     angle.reference = APP_ANGLE_INDEX;
@@ -169,6 +189,7 @@ int main(void)
     RUN_TEST(test_counts_from_the_zero_over_any_number_of_turns);
     RUN_TEST(test_a_target_is_where_its_counts_are_shown);
     RUN_TEST(test_the_zero_stays_when_the_reference_gets_better);
+    RUN_TEST(test_a_correction_does_not_move_the_zero);
     RUN_TEST(test_lost_counts_lose_the_zero_until_it_is_found_again);
     RUN_TEST(test_homing_finds_the_nearest_zero);
     RUN_TEST(test_what_is_beyond_all_counts_is_held_at_their_end);

@@ -32,7 +32,8 @@ static uint32_t       ticks;
 static form_t         form;
 static double         x_cnt; /* operator's sense */
 static double         v_cps;
-static uint16_t       forced; /* inputs that are active anyway */
+static int            left_cnt; /* of a correction of the angle */
+static uint16_t       forced;   /* inputs that are active anyway */
 
 static float e_radps(double cps)
 {
@@ -57,7 +58,7 @@ static void see(void)
     const int32_t at   = motor_cnt();
     const int32_t turn = ((at % TURN) + TURN) % TURN;
 
-    position.actual  = app_position_at(&position, at);
+    position.actual  = app_position_at(&position, at + left_cnt);
     angle.before_cnt = (uint16_t)turn;
 }
 
@@ -74,11 +75,12 @@ void setUp(void)
                                    .homing_zero_e_radps   = e_radps(SLOW_cps),
                                    .homing_time_s         = 60.0f};
 
-    angle  = encoder;
-    wanted = o;
-    ticks  = 0xFFFFF000UL; /* wraps on the way */
-    forced = 0U;
-    form   = SHORT;
+    angle    = encoder;
+    wanted   = o;
+    ticks    = 0xFFFFF000UL; /* wraps on the way */
+    forced   = 0U;
+    form     = SHORT;
+    left_cnt = 0;
     app_position_init(&position, &angle);
     position.known = true;
     app_homing_reset(&homing);
@@ -248,6 +250,17 @@ static void test_the_present_position_is_home_without_a_motion(void)
     }
 }
 
+/* During a correction by the index the zero is found where home is after it. */
+static void test_a_correction_does_not_move_home(void)
+{
+    for (left_cnt = -60; left_cnt <= 60; left_cnt += 40) {
+        angle.correct_ticks    = 300U;
+        angle.correct_step_rad = (float)left_cnt * angle.rad_per_cnt / 300.0f;
+        TEST_ASSERT_INT32_WITHIN(0, 4321, home(37, 4321.0));
+        TEST_ASSERT_INT32_WITHIN(1, next_mark(4321.0, 1), home(34, 4321.0));
+    }
+}
+
 static void test_the_zero_is_beside_home_by_the_offset(void)
 {
     wanted.home_offset_cnt = -250;
@@ -357,6 +370,7 @@ int main(void)
     RUN_TEST(test_the_next_mark_is_found_in_both_directions);
     RUN_TEST(test_the_first_mark_after_an_alignment_is_home);
     RUN_TEST(test_the_present_position_is_home_without_a_motion);
+    RUN_TEST(test_a_correction_does_not_move_home);
     RUN_TEST(test_the_zero_is_beside_home_by_the_offset);
     RUN_TEST(test_it_begins_when_the_bit_rises_and_ends_when_it_falls);
     RUN_TEST(test_without_its_input_it_fails_at_once);
