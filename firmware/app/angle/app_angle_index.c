@@ -103,9 +103,10 @@ static void correct(app_angle_t *a, uint16_t index_cnt)
 {
     const float error_rad = index_error_rad(a, index_cnt);
     const float periods   = fabsf(error_rad) / (CORRECT_radps * a->ts_s);
+    const float ticks     = base_clamp(periods, 0.0f, MOST_PERIODS) + 1.0f;
 
     refer_to_index(a, index_cnt);
-    a->correct_ticks    = (uint16_t)(base_clamp(periods, 0.0f, MOST_PERIODS) + 1.0f);
+    a->correct_ticks    = (uint16_t)ticks;
     a->correct_step_rad = error_rad / (float)a->correct_ticks;
 }
 
