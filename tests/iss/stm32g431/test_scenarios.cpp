@@ -36,7 +36,14 @@ INSTANTIATE_TEST_SUITE_P(More, IssStage,
                                            "board_voltage_dip", "board_weakening_load"),
                          name_of);
 
-constexpr double never_s = 99.0; ///< settling that the measure does not see
+constexpr double never_s = 99.0;
+
+/// Each measure settles, but for that of a dc link too low for the speed.
+double settled_s(const sdre::Metrics &m, const std::string &name)
+{
+    EXPECT_TRUE(m.settling_time_s || name == "dip") << name;
+    return m.settling_time_s.value_or(never_s);
+}
 
 /// A metric lies there with each of the seeds.
 struct Range {
@@ -71,20 +78,20 @@ void expect_as_on_the_host(sdre::Scenario s, const char *elf)
         ASSERT_EQ(host.result.fault, 0);
         const auto of_host = sdre::measure(s, host.result.trace);
         for (std::size_t n = 0; n < of_host.size(); n++) {
-            settling_s[n].add(of_host[n].settling_time_s.value_or(never_s));
+            settling_s[n].add(settled_s(of_host[n], s.measures[n].name));
             peak_A[n].add(of_host[n].peak_current_A);
             ripple_e_radps[n].add(of_host[n].ripple_e_radps);
         }
     }
     for (std::size_t n = 0; n < of_image.size(); n++) {
-        const double settled_s = of_image[n].settling_time_s.value_or(never_s);
+        const double image_s = settled_s(of_image[n], s.measures[n].name);
         std::printf("%s: settling %.2f of %.2f to %.2f ms, ripple %.3f of %.3f to %.3f rad/s, peak "
                     "%.2f of %.2f to %.2f A\n",
-                    s.measures[n].name.c_str(), 1e3 * settled_s, 1e3 * settling_s[n].least,
+                    s.measures[n].name.c_str(), 1e3 * image_s, 1e3 * settling_s[n].least,
                     1e3 * settling_s[n].most, of_image[n].ripple_e_radps, ripple_e_radps[n].least,
                     ripple_e_radps[n].most, of_image[n].peak_current_A, peak_A[n].least,
                     peak_A[n].most);
-        settling_s[n].expect(settled_s, 0.3e-3);
+        settling_s[n].expect(image_s, 0.3e-3);
         peak_A[n].expect(of_image[n].peak_current_A, 0.02 * s.drive.motor.max_current_A);
         // The end of the first measure of the speed steps may see the next command, a tick early.
         ripple_e_radps[n].expect(of_image[n].ripple_e_radps,
