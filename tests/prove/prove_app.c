@@ -35,6 +35,7 @@ static void let_be_any(app_path_t *p)
     p->aim.point.given    = any_bool();
     p->begun              = any_bool();
     p->due                = any_bool();
+    p->leads              = any_bool();
     p->lost               = any_bool();
     p->deviates           = any_bool();
     p->track.taken        = (uint16_t)any_between(0, (int)APP_TRACK_KNOWN);

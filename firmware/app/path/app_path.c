@@ -77,6 +77,7 @@ static void go_further(app_path_t *p, const position_t *at, const moment_t *now,
     const float c[6]     = {0.0f, v, 0.5f * a, -SIXTH * a, 0.0f, 0.0f};
 
     set_piece(p, at, c, fpu_inverse(length_s));
+    p->leads = false;
 }
 
 /* The motion at the end of a piece: a cubic for a short while, and a line after that. */
@@ -122,6 +123,7 @@ static bool begin_piece(app_path_t *p, const position_t *at, const moment_t *now
 
     if (ok) {
         set_piece(p, at, c, per_s);
+        p->leads = true;
     }
     return ok;
 }
@@ -175,7 +177,9 @@ static void plan_piece(app_path_t *p, const position_t *at, const moment_t *now,
     const float length_s =
         base_clamp((period_s - p->track.age_s) + p->late_s, 2.0f * ts_s, LONGEST_s);
 
-    if (p->due && ((p->track.age_s > (-0.5f * ts_s)) || (p->u >= 1.0f))) {
+    const bool waits = p->leads && (p->track.age_s <= (-0.5f * ts_s)) && (p->u < 1.0f);
+
+    if (p->due && !waits) {
         p->due = !begin_piece(p, at, now, length_s);
         p->late_s += p->due ? ((LONGER - 1.0f) * length_s) : 0.0f;
     }

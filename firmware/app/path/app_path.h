@@ -48,6 +48,7 @@ typedef struct {
     float          late_s;   /**< by which this piece ends later than its set-point */
     float          beyond_s; /**< since the following error left its window */
     bool           due;      /**< a piece is to begin */
+    bool           leads;    /**< this one leads to a set-point */
     bool           begun;
     bool           lost;     /**< no set-points for longer than the path runs on */
     bool           deviates; /**< the following error was beyond its window for its time */

@@ -15,16 +15,26 @@
 /* A set-point that no shaft could reach in the time is a step. */
 #define STEP_SHARE 2.0f
 
+/* Chosen by simulation: set-points in a row after which the motion is taken for a cubic again. */
+#define REGULAR 4U
+
 #define ON_CUBIC 2U /* predicted set-points in a row */
+
+/* One more, at most so many. */
+static uint16_t counted(uint16_t n, uint16_t most)
+{
+    return (n < most) ? (uint16_t)(n + 1U) : n;
+}
 
 void app_track_start(app_track_t *t)
 {
-    t->age_s  = 0.0f;
-    t->taken  = 0U;
-    t->missed = 0U;
-    t->s[0]   = 0.0f;
-    t->s[1]   = 0.0f;
-    t->s[2]   = 0.0f;
+    t->age_s   = 0.0f;
+    t->taken   = 0U;
+    t->missed  = 0U;
+    t->regular = REGULAR;
+    t->s[0]    = 0.0f;
+    t->s[1]    = 0.0f;
+    t->s[2]    = 0.0f;
 }
 
 position_t app_track_moved(const position_t *p, float by_rad)
@@ -72,7 +82,7 @@ void app_track_predict(app_track_t *t, const app_track_limits_t *l)
     step_cubic(t);
     limit(t, l);
     t->age_s -= l->period_s;
-    t->missed = (uint16_t)((t->missed < UINT16_MAX) ? (t->missed + 1U) : t->missed);
+    t->missed = counted(t->missed, UINT16_MAX);
 }
 
 /* EQ-APP-TRACK-4 */
@@ -122,28 +132,63 @@ static void correct_both(app_track_t *t, float off_rad, float way_rad, float p)
     }
 }
 
-/* Advances to the period of a set-point that came now. One that was predicted meanwhile is late. */
-static void count_points(app_track_t *t, const app_track_limits_t *l)
+/* EQ-APP-TRACK-5 */
+static void correct_line(app_track_t *t, float off_rad, float periods, float p)
+{
+    const float d = 1.0f - p;
+
+    t->at = app_track_moved(&t->at, (1.0f - (p * p)) * off_rad);
+    t->s[0] += d * d * off_rad * fpu_inverse(periods);
+}
+
+/* A motion with a gap is a line: what bends it would be multiplied with each further one. */
+static void correct(app_track_t *t, float off_rad, const app_track_point_t *point,
+                    const app_track_limits_t *l, float periods)
+{
+    const bool  line = t->regular < REGULAR;
+    const float p    = pole(periods * l->period_s);
+
+    if (point->given) {
+        correct_both(t, off_rad, l->period_s * point->omega_e_radps, p);
+    } else if (line) {
+        correct_line(t, off_rad, periods, p);
+    } else {
+        correct_cubic(t, off_rad, p);
+    }
+    if (line) {
+        t->s[1] = 0.0f;
+        t->s[2] = 0.0f;
+    }
+}
+
+/* Advances to the period of a set-point that came now. One that was predicted meanwhile is late.
+ * Returns the periods since the one before, at least 1. */
+static uint16_t count_points(app_track_t *t, const app_track_limits_t *l)
 {
     const float period_s = l->period_s;
+    uint16_t    periods  = t->missed;
 
     if ((t->missed == 0U) || (t->age_s > (0.5f * period_s))) {
         step_cubic(t);
         t->age_s -= period_s;
+        periods = counted(periods, UINT16_MAX);
     }
     const float share =
         (t->taken < APP_TRACK_KNOWN) ? fpu_inverse((float)t->taken + 1.0f) : CLOCK_SHARE;
 
     t->age_s = base_clamp(t->age_s * (1.0f - share), -EARLY_MOST * period_s, period_s);
+    return periods;
 }
 
 void app_track_take(app_track_t *t, const app_track_point_t *point, const app_track_limits_t *l)
 {
-    float off_rad = 0.0f;
+    float    off_rad = 0.0f;
+    uint16_t periods = 1U;
 
     if (t->taken > 0U) {
-        count_points(t, l);
-        off_rad = position_way_rad(&t->at, &point->at);
+        periods    = count_points(t, l);
+        t->regular = (periods > 1U) ? 0U : counted(t->regular, REGULAR);
+        off_rad    = position_way_rad(&t->at, &point->at);
     }
     if ((t->taken == 0U) || !base_within(off_rad, STEP_SHARE * l->period_s * l->speed_e_radps)) {
         const float age_s = (t->taken > 0U) ? t->age_s : 0.0f;
@@ -152,13 +197,10 @@ void app_track_take(app_track_t *t, const app_track_point_t *point, const app_tr
         t->age_s = age_s;
         t->at    = point->at;
         off_rad  = 0.0f;
+        periods  = 1U;
     }
-    if (point->given) {
-        correct_both(t, off_rad, l->period_s * point->omega_e_radps, pole(l->period_s));
-    } else {
-        correct_cubic(t, off_rad, pole(l->period_s));
-    }
+    correct(t, off_rad, point, l, (float)periods);
     limit(t, l);
     t->missed = 0U;
-    t->taken  = (uint16_t)((t->taken < APP_TRACK_KNOWN) ? (t->taken + 1U) : t->taken);
+    t->taken  = counted(t->taken, APP_TRACK_KNOWN);
 }

@@ -19,6 +19,14 @@
  *
  *     p = 1 / (1 + z + z^2 / 2),  z = T w_0                                   EQ-APP-TRACK-4
  *
+ * After a gap of n periods, and for some set-points more, the motion is a line: s_2 and s_3 are 0.
+ * With z = n T w_0 in EQ-APP-TRACK-4,
+ *
+ *     x   += (1 - p^2) r,                 s_1 += (1 - p)^2 r / n              EQ-APP-TRACK-5
+ *
+ * A cubic over gaps has no bound: a master who sends at half of the rate would drive the shaft to
+ * its largest speed.
+ *
  * Slow set-points are taken as they are. Fast ones have coarse counts: the filter keeps what is
  * slower than w_0. The clock is that of the set-points. Each moves it by a thirty-second of the
  * time by which it is early or late.
@@ -42,11 +50,12 @@ typedef struct {
 } app_track_limits_t;
 
 typedef struct {
-    position_t at;     /**< estimate of the newest set-point */
-    float      s[3];   /**< s_1, s_2, s_3 of EQ-APP-TRACK-1 [rad] */
-    float      age_s;  /**< since its time; negative: it is early */
-    uint16_t   taken;  /**< set-points since the start, at most APP_TRACK_KNOWN */
-    uint16_t   missed; /**< predicted since the last one */
+    position_t at;      /**< estimate of the newest set-point */
+    float      s[3];    /**< s_1, s_2, s_3 of EQ-APP-TRACK-1 [rad] */
+    float      age_s;   /**< since its time; negative: it is early */
+    uint16_t   taken;   /**< set-points since the start, at most APP_TRACK_KNOWN */
+    uint16_t   missed;  /**< predicted since the last one */
+    uint16_t   regular; /**< set-points without a gap between them; a start counts as enough */
 } app_track_t;
 
 /** Set-points that make the clock and the motion known. */

@@ -308,6 +308,47 @@ static void test_an_early_set_point_waits(void)
     TEST_ASSERT_DOUBLE_WITHIN(60.0, 500.0, counts_of(&now.at));
 }
 
+/* A ramp of 2000 counts in a second, at another rate than the period's. Some of it is lost. Then the
+ * master stays there. */
+static void run_to_2000(float period_s, double rate, double lost, bool given)
+{
+    const double each_s = (double)period_s / rate;
+    const double end_s  = 1.8 + (60.0 * (each_s + (double)period_s));
+    double       next_s = 0.0;
+
+    set_up_with(period_s);
+    path.aim.point.given = given;
+    while (time_s < end_s) {
+        if (time_s >= next_s) {
+            if (support_uniform(&random_state, 0.0f, 1.0f) >= (float)lost) {
+                give(2000.0 * fmin(time_s, 1.0));
+                path.aim.point.omega_e_radps = (time_s < 1.0) ? (float)(2000.0 * CNT_rad) : 0.0f;
+            }
+            next_s += each_s * (1.0 + (0.3 * (double)support_uniform(&random_state, -1.0f, 1.0f)));
+        }
+        tick();
+    }
+}
+
+static void test_set_points_at_another_rate_are_reached(void)
+{
+    static const float  periods_s[] = {0.001f, 0.002f, 0.005f, 0.01f, 0.02f, 0.05f, 0.1f};
+    static const double lost[]      = {0.0, 0.2, 0.5};
+
+    for (int i = 0; i < SUPPORT_COUNT(periods_s); i++) {
+        for (double slow = 0.3; slow < 4.0; slow += 0.1) {
+            for (int n = 0; n < 2 * SUPPORT_COUNT(lost); n++) {
+                run_to_2000(periods_s[i], 1.0 / slow, lost[n / 2], (n % 2) != 0);
+                TEST_ASSERT_DOUBLE_WITHIN(1.0, 2000.0, counts_of(&now.at));
+                TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, now.omega_e_radps);
+                if (n < 2) { /* nothing is lost */
+                    TEST_ASSERT_TRUE(speed_seen <= (15.0 * 2000.0 * CNT_rad));
+                }
+            }
+        }
+    }
+}
+
 static void test_three_set_points_make_a_parabola(void)
 {
     for (int k = 0; k < 3; k++) {
@@ -405,6 +446,7 @@ int main(void)
     RUN_TEST(test_after_two_periods_without_set_points_the_speed_stays);
     RUN_TEST(test_the_first_set_point_may_come_late);
     RUN_TEST(test_an_early_set_point_waits);
+    RUN_TEST(test_set_points_at_another_rate_are_reached);
     RUN_TEST(test_three_set_points_make_a_parabola);
     RUN_TEST(test_fast_set_points_may_pause_for_20_ms);
     RUN_TEST(test_a_following_error_deviates_after_its_time);
