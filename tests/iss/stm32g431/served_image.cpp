@@ -11,6 +11,7 @@ namespace iss::stm32g431 {
 namespace {
 
 constexpr double longest_boot_s = 0.5; // beyond the longest boot
+constexpr double seen_at        = 0.9; // of a period: the control interrupt has ended
 } // namespace
 
 ServedImage::ServedImage(const sdre::Drive &drive, const sdre::Machine &machine, std::uint64_t seed,
@@ -30,14 +31,18 @@ void ServedImage::start()
         throw sdre::InputError("serve: the image does not start" +
                                (findings().empty() ? "" : ": " + findings().front()));
     }
+    board_.chip.run_for(seen_at * period_s());
+    ends_s_ = time_s();
 }
 
+/// An instruction ends a little later, which the next period makes up for: so many periods are so many of the timer.
 void ServedImage::period()
 {
     set_load();
     board_.chip.open_home_switch(home_is_open());
     const int before = board_.chip.resets();
-    board_.chip.run_for(period_s());
+    ends_s_ += period_s();
+    board_.chip.run_for(ends_s_ - time_s());
     if (board_.chip.resets() != before) {
         resets_ += board_.chip.resets() - before;
         forget_processor_faults();

@@ -56,6 +56,7 @@ private:
     void break_processor(sdre::FaultKind kind) override;
 
     ImageBoard board_;
+    double     ends_s_ = 0.0; ///< of the period that passed last
     int        resets_ = 0;
 };
 
