@@ -3,6 +3,7 @@
 #pragma once
 
 #include "drive/drive_file.hpp"
+#include "ipmsm_390w/served_motor.hpp"
 #include "sil/served/served_f28335.hpp"
 
 extern "C" {
@@ -21,15 +22,8 @@ inline Drive shipped_drive()
 }
 
 constexpr double erased_s  = 2.1; ///< a slot of the store: 2 s
+constexpr double restart_s = 2.2; ///< erasure 2 s; it answers before its zeros are measured
 constexpr double erasing_s = 1.0; ///< within an erasure that a request has begun
-/// Largest speeds of images that are loaded: not those of the shipped drive.
-constexpr double first_image_e_radps  = 300.0;
-constexpr double second_image_e_radps = 400.0;
-constexpr double speed_band_rpm       = 3.0;
-constexpr double sine_band_e_radps    = 0.3;
-constexpr double coasting_s      = 1.5; ///< from 600 r/min it still turns; a quick stop has ended
-constexpr double to_rest_s       = 8.5;
-constexpr int    counts_per_turn = 10000; ///< four times the lines
 
 /// A word of a stored content.
 inline void flip_stored_bit(ServedBoard & /*served*/, std::uint16_t slot, std::size_t word)

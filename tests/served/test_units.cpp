@@ -38,7 +38,7 @@ protected:
         ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 2.0));
         EXPECT_NEAR(now(), begin_um + 2 * spindle_um, 1);
         EXPECT_NEAR(both(APP_REGISTERS_POSITION_TARGET), begin_um + 2 * spindle_um, 0);
-        EXPECT_NEAR(turned() - start, turns, 5e-4);
+        EXPECT_NEAR(turned() - start, turns, 46.0 / 9 / spindle_um); // POSITION_WINDOW
     }
 };
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-/// The board of the tests in tests/served: the image of the B-G431B-ESC1 on its simulator.
+/// The board of the tests in tests/served: an image of the B-G431B-ESC1 on its simulator.
 #pragma once
 
 #include "drive/drive_file.hpp"
+#include "served_motor.hpp"
 #include "stm32g431/served_image.hpp"
 
 namespace sdre {
 
 inline Drive shipped_drive()
 {
-    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/m2310p_24v.toml");
+    return read_drive_file(ISS_DRIVE);
 }
 
 /// At the first start the shaft is held past the index, until the drive is ready: no alignment is needed.
@@ -31,16 +32,8 @@ private:
 };
 
 constexpr double erased_s  = 0.1;  ///< a slot of the store: two pages of 22 ms
+constexpr double restart_s = 0.2;  ///< erasure and boot, and room
 constexpr double erasing_s = 0.03; ///< within an erasure that a request has begun
-/// Largest speeds of images that are loaded: not those of the shipped drive.
-constexpr double first_image_e_radps  = 1300.0;
-constexpr double second_image_e_radps = 1400.0;
-constexpr double speed_band_rpm =
-    12.0; ///< a light rotor, and the speed of one sample: 9 r/min were seen
-constexpr double sine_band_e_radps = 2.0; ///< rms; measured: 1.55, a light rotor with 1000 lines
-constexpr double coasting_s      = 0.03;  ///< from 600 r/min it still turns; a quick stop has ended
-constexpr double to_rest_s       = 0.5;
-constexpr int    counts_per_turn = 4000; ///< four times the lines
 
 /// A word of a stored content: the flash's code does not know.
 inline void flip_stored_bit(ServedBoard &served, std::uint16_t slot, std::size_t word)
