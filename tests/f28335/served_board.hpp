@@ -25,6 +25,13 @@ constexpr double erased_s  = 2.1; ///< a slot of the store: 2 s
 constexpr double restart_s = 2.2; ///< erasure 2 s; it answers before its zeros are measured
 constexpr double erasing_s = 1.0; ///< within an erasure that a request has begun
 
+/// Passes of the background that a test can ask for.
+constexpr double passes_s[]{25e-6, 0.35e-3, 0.7e-3};
+inline void      set_pass(ServedBoard &served, double pass_s)
+{
+    served.set_pass(pass_s);
+}
+
 /// A word of a stored content.
 inline void flip_stored_bit(ServedBoard & /*served*/, std::uint16_t slot, std::size_t word)
 {

@@ -123,6 +123,7 @@ TEST_F(CanopenPair, MoveAsOneBySync)
 {
     prepare(1);
     prepare(2);
+    EXPECT_NEAR(f28335::EcanUnit::sample_point(), 13.0 / 15.0, 1e-9); // as the firmware sets it
     nmt(1);
     come.clear();
     shaft_              = {};

@@ -35,6 +35,10 @@ constexpr double erased_s  = 0.1;  ///< a slot of the store: two pages of 22 ms
 constexpr double restart_s = 0.2;  ///< erasure and boot, and room
 constexpr double erasing_s = 0.03; ///< within an erasure that a request has begun
 
+/// A pass of the background takes the instructions that it has.
+constexpr double passes_s[]{0.0};
+inline void      set_pass(ServedBoard      &/*served*/, double /*pass_s*/) {}
+
 /// A word of a stored content: the flash's code does not know.
 inline void flip_stored_bit(ServedBoard &served, std::uint16_t slot, std::size_t word)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drive's constants over CAN into the flash of the virtual device, beside the SYNC of a master; simulated time only.
+// A drive's constants over CAN into the flash of the drive, beside the SYNC of a master; simulated time only.
 #include "can_client.hpp"
 #include "loaded_image.hpp"
 
@@ -13,7 +13,6 @@ namespace {
 
 using namespace sdre;
 
-constexpr double      erased_s    = 2.1; // a sector: 2 s
 constexpr double      sync_s      = 5e-3;
 constexpr std::size_t per_request = 62; // words, and two of their place
 constexpr unsigned    segment     = 7;  // octets
@@ -107,7 +106,7 @@ TEST_F(LoadingCan, AnImageIsInForceAfterTheRestart)
     pass(0.5);
     EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 0);
     enter();
-    write_image(image(300.0, "ab"));
+    write_image(image(first_image_e_radps, "ab"));
     command(APP_LOADER_LEAVE);
     pass(0.5);
     EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
@@ -135,7 +134,7 @@ TEST_F(LoadingCan, WordsComeOnceAndInTheirOrder)
 {
     pass(0.5);
     enter();
-    const Words words = image(300.0, "ab");
+    const Words words = image(first_image_e_radps, "ab");
     command(APP_LOADER_BEGIN, {0, static_cast<std::uint16_t>(words.size())});
     pass(erased_s);
     EXPECT_EQ(write_block(APP_LOADER_OFFSET_HI, {0, 0, words[0], words[1]}), no_abort);
