@@ -64,6 +64,7 @@ void Flash::before_write(std::uint32_t address, unsigned octets, std::uint32_t v
         if (address != half_at_ + 4U) {
             fail(seq_error, "half of 64 bits is written");
         }
+        writes_++;
         begin(half_at_, std::vector<std::uint8_t>(grain, 0xFFU), write_time);
         half_at_ = 0;
     }

@@ -28,6 +28,10 @@ public:
     {
         return torn_.size();
     }
+    int writes() const ///< of 64 bits, begun since the start
+    {
+        return writes_;
+    }
     int torn_reads() const ///< since the start
     {
         return torn_reads_;
@@ -48,6 +52,7 @@ private:
     std::vector<std::uint8_t> before_;      // its octets
     std::uint64_t             ends_ = 0;    // at this cycle
     std::set<std::uint32_t>   torn_;
+    int                       writes_     = 0;
     int                       torn_reads_ = 0;
     std::mt19937              random_;
 };

@@ -26,6 +26,7 @@ constexpr double answer_s   = 0.1;
 constexpr double step_s     = 5e-4;
 constexpr double ready_s    = 0.4; // boot 50 ms, offsets of the sensors 256 ms
 constexpr double cut_step_s = 20e-6;
+constexpr double erased_s   = 10e-3; // a page takes 22 ms
 
 class IssImage : public ::testing::Test {
 protected:
@@ -83,42 +84,58 @@ protected:
         chip.run_for(0.1);
         ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_IDLE);
     }
-    /// Cuts the power so long after the restart that stores a window, each time another one.
-    void cut(const std::vector<double> &after_s)
+    /// Cuts the power in each of these writes of the restart that stores a window. Write 0 is an erased page before them.
+    void cut(const std::vector<int> &in_writes)
     {
-        chip.run_for(ready_s);
-        store_window(100);
-        chip.run_for(0.2);
         ASSERT_EQ(window(), 100);
         int before = 100;
         int taken  = 0;
         int torn   = 0;
-        for (const double at_s : after_s) {
+        for (const int in_write : in_writes) {
             const int next   = before + 1;
             const int resets = chip.resets();
             store_window(next);
             while (chip.resets() == resets) {
                 chip.run_for(cut_step_s);
             }
-            chip.run_for(at_s);
+            if (in_write == 0) {
+                chip.run_for(erased_s);
+            }
+            const int    reached = chip.flash().writes() + in_write;
+            const double end_s   = chip.time_s() + 0.2;
+            while (chip.flash().writes() < reached) {
+                ASSERT_LT(chip.time_s(), end_s) << in_write;
+                chip.run_for(cut_step_s);
+            }
             chip.power_cycle();
             torn += chip.flash().torn() > 0 ? 1 : 0;
             chip.run_for(ready_s);
             const int now = window();
-            ASSERT_TRUE(now == before || now == next) << now << " after " << at_s;
-            EXPECT_EQ(input(APP_REGISTERS_PARAMETERS_STATE), 1) << at_s;
-            EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_READY) << at_s;
-            EXPECT_EQ(chip.resets(), 0) << at_s;
+            ASSERT_TRUE(now == before || now == next) << now << " in write " << in_write;
+            EXPECT_EQ(input(APP_REGISTERS_PARAMETERS_STATE), 1) << in_write;
+            EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_READY) << in_write;
+            EXPECT_EQ(chip.resets(), 0) << in_write;
             taken += now == next ? 1 : 0;
             before = now;
         }
         std::printf(
             "%zu cuts: %d left the new ones, %d bits beyond correction, %d reads of these\n",
-            after_s.size(), taken, torn, chip.flash().torn_reads());
+            in_writes.size(), taken, torn, chip.flash().torn_reads());
         EXPECT_GE(taken, 1);
         EXPECT_GE(torn, 2);
         EXPECT_GE(chip.flash().torn_reads(), 1) << "each is an NMI";
         expect_no_findings();
+    }
+    /// Of a record: what the first one takes.
+    int writes_of_a_record()
+    {
+        chip.run_for(ready_s);
+        const int before = chip.flash().writes();
+        store_window(99);
+        chip.run_for(0.2);
+        store_window(100); // with the mark of the one before
+        chip.run_for(0.2);
+        return (chip.flash().writes() - before) / 2;
     }
     void expect_no_findings()
     {
@@ -195,17 +212,21 @@ TEST_F(IssImage, CodeInTheRamIsProtectedAndComparedWithTheFlash)
 
 TEST_F(IssImage, APowerCutLeavesTheOldParametersOrTheNewOnes)
 {
-    cut({1e-3, 2e-3, 3e-3, 4e-3, 30e-3, 45.0e-3,
-         50e-3}); // first page, second page, content, too late
+    const int last = writes_of_a_record();
+    cut({0, 1, last / 2, last - 1, last, last, last, last + 1});
 }
 
 TEST_F(IssImage, APowerCutInEachWriteLeavesTheOldParametersOrTheNewOnes)
 {
-    std::vector<double> after_s; // 64 bits take 82 us
-    for (double at_s = 44.3e-3; at_s < 50e-3; at_s += 0.24e-3) {
-        after_s.push_back(at_s);
+    const int        last = writes_of_a_record();
+    std::vector<int> in_writes;
+    for (int n = 0; n <= last + 1; n++) {
+        in_writes.push_back(n);
     }
-    cut(after_s);
+    for (int n = 0; n < 6; n++) { // the marks
+        in_writes.push_back(last + n % 2);
+    }
+    cut(in_writes);
 }
 
 TEST_F(IssImage, WithoutCrystalItStaysOff)
