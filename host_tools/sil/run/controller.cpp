@@ -9,14 +9,19 @@ extern "C" {
 
 namespace sdre {
 
-Controller prepare_controller(const Scenario &s, Precision precision)
+Drive believed_drive(const Scenario &s)
 {
     Drive believed      = s.drive;
     believed.motor      = scaled(s.drive.motor, s.controller_scale);
     believed.nosc.order = s.nosc_order.value_or(believed.nosc.order);
     believed.nodo.order = s.nodo_order.value_or(believed.nodo.order);
+    return believed;
+}
 
-    Controller c;
+Controller prepare_controller(const Scenario &s, Precision precision)
+{
+    const Drive believed = believed_drive(s);
+    Controller  c;
     if (drive_digest(believed) == GAIN_TABLES_DIGEST) {
         c.config         = gain_tables_drive;
         c.compiled_table = true;

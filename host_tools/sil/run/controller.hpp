@@ -20,6 +20,9 @@ struct Controller {
     std::shared_ptr<const void> constants; ///< what config points to, when solved here
 };
 
+/// The drive that the controller knows: controller_scale, nosc_order and nodo_order of the scenario act.
+Drive believed_drive(const Scenario &scenario);
+
 /// DesignError when the gains cannot be solved. `extended` is for a drive that learns its inertia (design.hpp).
 Controller prepare_controller(const Scenario &scenario, Precision precision = Precision::quick);
 

@@ -21,15 +21,6 @@ std::string share(const char *what, std::uint64_t worst, std::uint64_t median, d
                        100.0 * static_cast<double>(median) / period);
 }
 
-/// The constants are compiled in.
-void check_constants(const sdre::Scenario &s)
-{
-    if (!s.controller_scale.empty() || s.nosc_order || s.nodo_order) {
-        throw sdre::InputError("the image has the constants of its drive file: the scenario asks "
-                               "for another controller");
-    }
-}
-
 } // namespace
 
 sdre::Scenario with_three_shunts(sdre::Scenario s)
@@ -67,8 +58,7 @@ void require_constants(const Program &program, const sdre::Drive &drive)
 
 ImageResult simulate_image(const sdre::Scenario &scenario, const Program &program)
 {
-    check_constants(scenario);
-    require_constants(program, scenario.drive);
+    require_constants(program, sdre::believed_drive(scenario));
     const sdre::Scenario        s          = with_three_shunts(scenario);
     const sdre::Controller      controller = sdre::prepare_controller(s);
     ImageResult                 out;

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "sil/eval/metrics.hpp"
+#include "sil/eval/random_motors.hpp"
 #include "stm32g431/image_scenario.hpp"
 
 using namespace iss::stm32g431;
@@ -23,6 +24,14 @@ protected:
 };
 class IssStage : public IssScenario {};
 
+/// A scenario whose controller has constants of its own.
+struct Own {
+    const char *scenario;
+    const char *drive; ///< of the motor
+    const char *image; ///< with the controller's constants
+};
+class IssOwn : public ::testing::TestWithParam<Own> {};
+
 constexpr auto name_of = [](const auto &i) { return std::string(i.param); };
 
 INSTANTIATE_TEST_SUITE_P(Shipped, IssScenario,
@@ -35,6 +44,19 @@ INSTANTIATE_TEST_SUITE_P(More, IssStage,
                                            "board_reversal", "board_speed_step",
                                            "board_voltage_dip", "board_weakening_load"),
                          name_of);
+
+/// A motor of the scenario's ranges, which the controller does not know.
+class IssRandomMotor : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Own, IssRandomMotor, ::testing::Range(1, 5));
+
+constexpr const char *stage_5A     = ISS_STAGE "_5A";
+constexpr const char *stage_varied = ISS_STAGE "_varied";
+INSTANTIATE_TEST_SUITE_P(Own, IssOwn,
+                         ::testing::Values(Own{"board_flux_weakening_5A", stage_5A, stage_5A},
+                                           Own{"board_speed_step_5A", stage_5A, stage_5A},
+                                           Own{"board_load_step_varied", ISS_STAGE, stage_varied},
+                                           Own{"board_speed_step_varied", ISS_STAGE, stage_varied}),
+                         [](const auto &i) { return std::string(i.param.scenario); });
 
 constexpr double never_s = 99.0;
 
@@ -112,4 +134,21 @@ TEST_P(IssStage, IsAsTheApplicationOnTheHostWithSeveralSeeds)
 {
     expect_as_on_the_host(sdre::read_scenario_file(file(), ISS_STAGE "/ipmsm_390w.toml"),
                           ISS_STAGE "/sdre_stm32g431.elf");
+}
+
+TEST_P(IssOwn, IsAsTheApplicationOnTheHostWithSeveralSeeds)
+{
+    const auto [scenario, drive, image] = GetParam();
+    expect_as_on_the_host(
+        sdre::read_scenario_file(std::string(ISS_SCENARIOS) + "/" + scenario + ".toml",
+                                 std::string(drive) + "/ipmsm_390w.toml"),
+        (std::string(image) + "/sdre_stm32g431.elf").c_str());
+}
+
+TEST_P(IssRandomMotor, IsAsTheApplicationOnTheHostWithSeveralSeeds)
+{
+    sdre::Scenario s = sdre::read_scenario_file(ISS_SCENARIOS "/board_random_motors.toml",
+                                                ISS_STAGE "/ipmsm_390w.toml");
+    s.plant_scale    = sdre::draw_motor(*s.motor_ranges, s.seed, GetParam());
+    expect_as_on_the_host(s, ISS_STAGE "/sdre_stm32g431.elf");
 }
