@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-# The image of the stm32g431 for the 390 W motor before stage_300v.toml:
+# The image of the stm32g431 for the 390 W motor before stage_300v.toml.
+#
 #     cmake -D GAINS=sdre-gains -D OUT=DIR [-D VALUES=KEY=NUMBER,..] -P stage_image.cmake
+#
 # It writes DIR/ipmsm_390w.toml, with these values, and DIR/sdre_stm32g431.elf.
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 

@@ -126,7 +126,7 @@ protected:
         EXPECT_GE(chip.flash().torn_reads(), 1) << "each is an NMI";
         expect_no_findings();
     }
-    /// Of a record: what the first one takes.
+    /// The number of writes that one record takes.
     int writes_of_a_record()
     {
         chip.run_for(ready_s);
