@@ -60,3 +60,8 @@ TEST_F(Start, TheFlagOfTheWatchdogDecidesNothing)
     }
     EXPECT_TRUE(served.findings().empty());
 }
+
+TEST_F(Start, ABitOfTheBusIsSampledAtThirteenFifteenths)
+{
+    EXPECT_NEAR(f28335::EcanUnit::sample_point(), 13.0 / 15.0, 1e-9);
+}

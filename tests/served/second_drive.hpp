@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Another virtual drive, in a process of its own: the firmware has one state. It goes period by period with the first one.
+/// Another drive, in a process of its own: the firmware has one state. It goes period by period with the first one.
 #pragma once
 
 #include <array>
@@ -72,16 +72,16 @@ public:
 private:
     static void serve(int fd, std::uint64_t seed)
     {
-        ServedF28335 drive(shipped_drive(), seed);
+        ServedBoard drive(shipped_drive(), seed);
         Parcel       go;
         while (recv(fd, &go, sizeof go, 0) == static_cast<ssize_t>(sizeof go)) {
             Parcel come;
             for (int n = 0; n < go.frames; n++) {
-                drive.can().send(go.frame.at(static_cast<std::size_t>(n)));
+                drive.can_bus().far_end().send(go.frame.at(static_cast<std::size_t>(n)));
             }
             drive.period();
             while (come.frames < static_cast<int>(come.frame.size())) {
-                const std::optional<f28335::CanFrame> f = drive.can().take();
+                const std::optional<f28335::CanFrame> f = drive.can_bus().far_end().take();
                 if (!f) {
                     break;
                 }
