@@ -73,7 +73,7 @@ private:
     static void serve(int fd, std::uint64_t seed)
     {
         ServedBoard drive(shipped_drive(), seed);
-        Parcel       go;
+        Parcel      go;
         while (recv(fd, &go, sizeof go, 0) == static_cast<ssize_t>(sizeof go)) {
             Parcel come;
             for (int n = 0; n < go.frames; n++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A long run on the virtual F28335 with random speeds, loads and temporary faults. An operator
+// A long run with random speeds, loads and temporary faults. An operator
 // sends Modbus requests and resets trips. Nothing may drift, stay stuck, or leave its limits.
 //
 // SDRE_SOAK_s sets the simulated seconds.
@@ -13,12 +13,10 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "sil/board/board_runs.hpp"
 #include "sil/board/board_scenario.hpp"
-#include "sil/run/controller.hpp"
+#include "soak_board.hpp"
 
 extern "C" {
-#include "app.h"
 #include "app_registers.h"
 }
 
@@ -131,7 +129,7 @@ void add_trouble(Scenario &s, double at_s, Trouble trouble, Dice &dice)
 /// The operator at the serial line, one request at a time.
 class Operator {
 public:
-    explicit Operator(F28335Run &run) : run_(run) {}
+    explicit Operator(ModbusRun &run) : run_(run) {}
 
     void want(int speed_tenths)
     {
@@ -198,7 +196,7 @@ private:
                                          static_cast<std::uint16_t>(both & 0xFFFFU)});
     }
 
-    F28335Run &run_;
+    ModbusRun &run_;
     int        mode_      = -1;
     int        speed_     = 0;
     int        told_      = 0;
@@ -218,8 +216,8 @@ TEST(Soak, NothingDriftsOrSticks)
     const double time_s = wanted != nullptr ? std::atof(wanted) : short_form_s;
     const int    count  = static_cast<int>(std::lround(time_s / episode_s));
 
-    Scenario s =
-        read_scenario_file(SDRE_SOURCE_DIR "/host_tools/sil/scenarios/board_load_step.toml");
+    Scenario s = read_scenario_file(
+        SDRE_SOURCE_DIR "/host_tools/sil/scenarios/board_load_step.toml", soak_drive);
     s.load_torque.clear();
     s.initial_speed_e_radps = 0.0;
     s                       = for_board(s).scenario;
@@ -235,11 +233,9 @@ TEST(Soak, NothingDriftsOrSticks)
         add_trouble(s, n * episode_s + breaks_at_s, e.trouble, dice);
         episodes.push_back(e);
     }
-    const sdre::Controller c = sdre::prepare_controller(s);
-    set_firmware(c.config, s.drive);
-
     constexpr long start = 1700; // ticks: after the boot and the index
-    F28335Run      run(s, start, 3e-6);
+    const auto     board = soak_board(s, start);
+    ModbusRun     &run   = *board;
     Operator       op(run);
     const auto     episode_ticks = std::lround(episode_s / period_s);
     const auto     poll_ticks    = std::lround(poll_s / period_s);
@@ -251,7 +247,7 @@ TEST(Soak, NothingDriftsOrSticks)
     int          judged = 0, trips = 0, recoveries = 0;
     bool         tripped = false, recovering = false;
     app_mode_t   before = APP_MODE_BOOT;
-    const double zero_A = [] { return static_cast<double>(app_status_read().zero_a_cnt); }();
+    const double zero_A = static_cast<double>(run.status().zero_a_cnt);
     while (run.bench().tick() < start) {
         ASSERT_TRUE(run.step());
     }
@@ -278,7 +274,7 @@ TEST(Soak, NothingDriftsOrSticks)
         peak_A                 = std::max(peak_A, run.bench().peak_current_A());
         double &by_kind_A      = worst_A.at(static_cast<std::size_t>(e.trouble));
         by_kind_A              = std::max(by_kind_A, run.bench().peak_current_A());
-        const app_status_t now = app_status_read();
+        const app_status_t now = run.status();
         running                = running && now.mode == APP_MODE_RUN;
         trips += now.mode == APP_MODE_FAULT && !tripped ? 1 : 0;
         tripped = now.mode == APP_MODE_FAULT;
@@ -316,7 +312,7 @@ TEST(Soak, NothingDriftsOrSticks)
     EXPECT_EQ(run.errors(), 0);
     EXPECT_GT(judged, 0);
     EXPECT_GT(op.resets(), 0);
-    EXPECT_NEAR(static_cast<double>(app_status_read().zero_a_cnt), zero_A, 20.0);
+    EXPECT_NEAR(static_cast<double>(run.status().zero_a_cnt), zero_A, 20.0);
     fmt::print("{} s: {} trips, {} recoveries, worst mean speed error of {} quiet seconds {:.3f} "
                "rad/s, longest out of RUN {:.2f} s, longest attempt {:.2f} s, {} answers, peak "
                "current by trouble [A]: {:.2f}\n",
