@@ -12,24 +12,10 @@ class LimitSwitches : public HomingClient {};
 
 TEST_F(LimitSwitches, AHomeSwitchGivesEachOfItsEdges)
 {
-    struct Row {
-        int    method;
-        double edge;
-        int    way;
-    };
     enable_homing();
-    for (const Row row : {Row{7, lower, -1},
-                          {8, lower, 1},
-                          {9, upper, -1},
-                          {10, upper, 1},
-                          {11, upper, 1},
-                          {12, upper, -1},
-                          {13, lower, 1},
-                          {14, lower, -1}}) {
-        ASSERT_TRUE(home(row.method + 16)) << row.method + 16;
-        EXPECT_NEAR(zero(), row.edge, within) << row.method + 16;
-        ASSERT_TRUE(home(row.method)) << row.method;
-        EXPECT_NEAR(zero(), mark_after(row.edge, row.way), 2 * count) << row.method;
+    for (const Edge &e : edges) {
+        ASSERT_NO_FATAL_FAILURE(home_at(e));
+        ASSERT_NO_FATAL_FAILURE(home_at_its_mark(e));
     }
     EXPECT_EQ(input(APP_REGISTERS_HOMED), 1);
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);

@@ -53,9 +53,25 @@ protected:
         talk(0.11);
         return served.turns() - now() * count;
     }
-    double mark_after(double edge, int way) const
+    /// An edge of the home switch, and the way from it to its index mark.
+    struct Edge {
+        int    method; ///< with the mark; 16 more: without
+        double at;
+        int    way;
+    };
+    static constexpr Edge edges[]{{7, lower, -1}, {8, lower, 1},   {9, upper, -1}, {10, upper, 1},
+                                  {11, upper, 1}, {12, upper, -1}, {13, lower, 1}, {14, lower, -1}};
+
+    void home_at(const Edge &e)
     {
-        return way > 0 ? std::ceil(edge + 1e-9) : std::floor(edge - 1e-9);
+        ASSERT_TRUE(home(e.method + 16)) << e.method + 16;
+        EXPECT_NEAR(zero(), e.at, within) << e.method + 16;
+    }
+    void home_at_its_mark(const Edge &e)
+    {
+        const double mark = e.way > 0 ? std::ceil(e.at + 1e-9) : std::floor(e.at - 1e-9);
+        ASSERT_TRUE(home(e.method)) << e.method;
+        EXPECT_NEAR(zero(), mark, 2 * count) << e.method;
     }
 };
 

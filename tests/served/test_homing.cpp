@@ -24,27 +24,14 @@ protected:
 
 TEST_F(Homing, EachEdgeOfTheSwitchIsFoundFromTheSideOnWhichTheShaftIs)
 {
-    struct Row {
-        int    method;
-        double from;
-        double edge;
-        int    way;
-    };
     enable_homing(4); // the home switch
-    for (const Row row : {Row{7, 0.4, lower, -1},
-                          {8, 0.4, lower, 1},
-                          {9, 0.4, upper, -1},
-                          {10, 0.4, upper, 1},
-                          {11, 2.6, upper, 1},
-                          {12, 2.6, upper, -1},
-                          {13, 2.6, lower, 1},
-                          {14, 2.6, lower, -1}}) {
-        turn_to(row.from);
-        ASSERT_TRUE(home(row.method + 16)) << row.method + 16;
-        EXPECT_NEAR(zero(), row.edge, within) << row.method + 16;
-        turn_to(row.from);
-        ASSERT_TRUE(home(row.method)) << row.method;
-        EXPECT_NEAR(zero(), mark_after(row.edge, row.way), 2 * count) << row.method;
+    for (const Edge &e : edges) {
+        const double from =
+            e.method <= 10 ? 0.4 : 2.6; // these begin forwards, the others backwards
+        turn_to(from);
+        ASSERT_NO_FATAL_FAILURE(home_at(e));
+        turn_to(from);
+        ASSERT_NO_FATAL_FAILURE(home_at_its_mark(e));
     }
     EXPECT_EQ(input(APP_REGISTERS_HOMED), 1);
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
