@@ -5,18 +5,17 @@
 //
 // Every flip has its own process and starts from the same instant of the same run. SDRE_BIT_FLIPS
 // sets their number.
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "common/random.hpp"
+#include "../support/bit_flips.hpp"
 #include "sil/board/board_run.hpp"
 #include "sil/board/board_runs.hpp"
 #include "sil/board/board_scenario.hpp"
@@ -120,36 +119,30 @@ TEST(BitFlips, NoneLeadsToTooMuchCurrentUnnoticed)
     for (const Region &r : all) {
         bytes += r.bytes;
     }
-    const char *wanted = std::getenv("SDRE_BIT_FLIPS");
-    const int   flips  = wanted != nullptr ? std::atoi(wanted) : short_form;
-    int         trips = 0, missed = 0, crashed = 0;
-    for (int n = 0; n < flips; n++) {
-        const auto place = static_cast<std::size_t>(
-            (0.5 +
-             0.5 * EvenNumbers(7, NoiseStream::start_angle).at(static_cast<std::uint64_t>(n))) *
-            static_cast<double>(8 * bytes - 1));
-        std::size_t at = place / 8;
-        std::size_t r  = 0;
-        while (at >= all[r].bytes) {
-            at -= all[r++].bytes;
+    const auto at = [&](std::size_t place) { // of the bits: region and byte
+        std::size_t byte = place / 8;
+        std::size_t r    = 0;
+        while (byte >= all[r].bytes) {
+            byte -= all[r++].bytes;
         }
-        const pid_t child = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            flip_and_go_on(run, all[r].first + at, static_cast<int>(place % 8));
-        }
-        int status = 0;
-        ASSERT_EQ(waitpid(child, &status, 0), child);
-        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return std::pair(r, byte);
+    };
+    const auto flips = support::flip_bits(8 * bytes, short_form, [&](std::size_t place) {
+        const auto [r, byte] = at(place);
+        flip_and_go_on(run, all[r].first + byte, static_cast<int>(place % 8));
+    });
+    int        trips = 0, missed = 0, crashed = 0;
+    for (const auto &[place, code] : flips) {
         trips += code == exit_trip ? 1 : 0;
         missed += code == exit_missed ? 1 : 0;
         // Sanitizers stop at a bool that is neither 0 nor 1, which a processor takes for true.
         crashed += code < 0 || code > exit_missed ? 1 : 0;
         if (code == exit_missed || code < 0 || code > exit_missed) {
-            std::printf("flip %d: region %zu byte %zu bit %zu: %d\n", n, r, at, place % 8, code);
+            const auto [r, byte] = at(place);
+            std::printf("flip at region %zu byte %zu bit %zu: %d\n", r, byte, place % 8, code);
         }
     }
-    std::printf("%d flips in %zu bytes: %d trips, %d missed, %d crashes\n", flips, bytes, trips,
-                missed, crashed);
+    std::printf("%zu flips in %zu bytes: %d trips, %d missed, %d crashes\n", flips.size(), bytes,
+                trips, missed, crashed);
     EXPECT_EQ(missed, 0);
 }

@@ -3,17 +3,13 @@
 // an open bridge. A current beyond 1.5 times the limit with the bridge on is a failure.
 //
 // Every flip has its own process and starts from the same instant of the same run. SDRE_BIT_FLIPS sets their number.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
-#include "common/random.hpp"
+#include "bit_flips.hpp"
 #include "running_client.hpp"
 
 using namespace sdre;
@@ -78,30 +74,19 @@ TEST_F(IssBitFlips, NoneLeadsToTooMuchCurrentUnnoticed)
             words.emplace_back(r.name, at);
         }
     }
-    const EvenNumbers  even(7, NoiseStream::start_angle);
-    const char *const  wanted = std::getenv("SDRE_BIT_FLIPS");
-    const int          flips  = wanted != nullptr ? std::atoi(wanted) : short_form;
+    const auto flips = support::flip_bits(32 * words.size(), short_form, [&](std::size_t place) {
+        flip_and_go_on(words[place / 32U].second, static_cast<unsigned>(place % 32U));
+    });
     std::array<int, 3> of_code{};
-    for (int n = 0; n < flips; n++) {
-        const double      from_0_to_1 = 0.5 + 0.5 * even.at(static_cast<std::uint64_t>(n));
-        const std::size_t place       = static_cast<std::size_t>(
-            from_0_to_1 * (32.0 * static_cast<double>(words.size()) - 1.0));
+    for (const auto &[place, code] : flips) {
         const auto &[region, address] = words[place / 32U];
-        const pid_t child             = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            flip_and_go_on(address, static_cast<unsigned>(place % 32U));
-        }
-        int status = 0;
-        ASSERT_EQ(waitpid(child, &status, 0), child);
-        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
         ASSERT_TRUE(code >= exit_quiet && code <= exit_missed) << region << ' ' << address;
         of_code[static_cast<std::size_t>(code)]++;
         if (code == exit_missed) {
             std::printf("%s, %08x bit %zu: too much current\n", region, address, place % 32U);
         }
     }
-    std::printf("%d flips in %zu octets: %d trips, %d missed\n", flips, 4U * words.size(),
+    std::printf("%zu flips in %zu octets: %d trips, %d missed\n", flips.size(), 4U * words.size(),
                 of_code[exit_trip], of_code[exit_missed]);
     EXPECT_EQ(of_code[exit_missed], 0);
 }
