@@ -26,7 +26,6 @@ constexpr double answer_s   = 0.1;
 constexpr double step_s     = 5e-4;
 constexpr double ready_s    = 0.4; // boot 50 ms, offsets of the sensors 256 ms
 constexpr double cut_step_s = 20e-6;
-constexpr double erased_s   = 10e-3; // a page takes 22 ms
 
 class IssImage : public ::testing::Test {
 protected:
@@ -84,23 +83,25 @@ protected:
         chip.run_for(0.1);
         ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_IDLE);
     }
-    /// Cuts the power in each of these writes of the restart that stores a window. Write 0 is an erased page before them.
-    void cut(const std::vector<int> &in_writes)
+    /// After so long from the restart that stores a window, and then in the write of this number; 0: at once.
+    struct Cut {
+        double after_s  = 0.0;
+        int    in_write = 0;
+    };
+    void cut(const std::vector<Cut> &cuts)
     {
         ASSERT_EQ(window(), 100);
         int before = 100;
         int taken  = 0;
         int torn   = 0;
-        for (const int in_write : in_writes) {
+        for (const auto [after_s, in_write] : cuts) {
             const int next   = before + 1;
             const int resets = chip.resets();
             store_window(next);
             while (chip.resets() == resets) {
                 chip.run_for(cut_step_s);
             }
-            if (in_write == 0) {
-                chip.run_for(erased_s);
-            }
+            chip.run_for(after_s);
             const int    reached = chip.flash().writes() + in_write;
             const double end_s   = chip.time_s() + 0.2;
             while (chip.flash().writes() < reached) {
@@ -111,7 +112,8 @@ protected:
             torn += chip.flash().torn() > 0 ? 1 : 0;
             chip.run_for(ready_s);
             const int now = window();
-            ASSERT_TRUE(now == before || now == next) << now << " in write " << in_write;
+            ASSERT_TRUE(now == before || now == next)
+                << now << " after " << after_s << ", in write " << in_write;
             EXPECT_EQ(input(APP_REGISTERS_PARAMETERS_STATE), 1) << in_write;
             EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_READY) << in_write;
             EXPECT_EQ(chip.resets(), 0) << in_write;
@@ -120,7 +122,7 @@ protected:
         }
         std::printf(
             "%zu cuts: %d left the new ones, %d bits beyond correction, %d reads of these\n",
-            in_writes.size(), taken, torn, chip.flash().torn_reads());
+            cuts.size(), taken, torn, chip.flash().torn_reads());
         EXPECT_GE(taken, 1);
         EXPECT_GE(torn, 2);
         EXPECT_GE(chip.flash().torn_reads(), 1) << "each is an NMI";
@@ -213,20 +215,33 @@ TEST_F(IssImage, CodeInTheRamIsProtectedAndComparedWithTheFlash)
 TEST_F(IssImage, APowerCutLeavesTheOldParametersOrTheNewOnes)
 {
     const int last = writes_of_a_record();
-    cut({0, 1, last / 2, last - 1, last, last, last, last + 1});
+    // In the first page and the second, in the content, in the marks; and too late.
+    cut({{1e-3},
+         {2e-3},
+         {3e-3},
+         {4e-3},
+         {30e-3},
+         {0.0, 1},
+         {0.0, last / 2},
+         {0.0, last - 1},
+         {0.0, last},
+         {0.0, last},
+         {0.0, last},
+         {0.0, last + 1},
+         {50e-3}});
 }
 
 TEST_F(IssImage, APowerCutInEachWriteLeavesTheOldParametersOrTheNewOnes)
 {
     const int        last = writes_of_a_record();
-    std::vector<int> in_writes;
-    for (int n = 0; n <= last + 1; n++) {
-        in_writes.push_back(n);
+    std::vector<Cut> cuts;
+    for (int n = 1; n <= last + 1; n++) {
+        cuts.push_back({0.0, n});
     }
     for (int n = 0; n < 6; n++) { // the marks
-        in_writes.push_back(last + n % 2);
+        cuts.push_back({0.0, last + n % 2});
     }
-    cut(in_writes);
+    cut(cuts);
 }
 
 TEST_F(IssImage, WithoutCrystalItStaysOff)
