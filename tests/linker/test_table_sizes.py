@@ -80,13 +80,25 @@ def words(law, more=()):
     }
 
 
+def variables_of(source, law, more=()):
+    """Words of each variable of a file."""
+    found = re.findall(r"\.comm\s+\w+,(\d+)", assembly(f'#include "{source}"\n', law, more))
+    return [int(octets) // 2 for octets in found]
+
+
+@functools.lru_cache(maxsize=None)
+def sources_with_variables():
+    """The law decides how large a variable is; the options decide which there are."""
+    return [
+        source
+        for source in sorted((FIRMWARE / "app").rglob("*.c"))
+        if variables_of(source, "noc", WITH_MAP) or variables_of(source, "noc_h")
+    ]
+
+
 def variables(law, more=()):
     """Words of what the application keeps: it lies beside the constants in force."""
-    total = 0
-    for source in sorted((FIRMWARE / "app").rglob("*.c")):
-        found = re.findall(r"\.comm\s+\w+,(\d+)", assembly(f'#include "{source}"\n', law, more))
-        total += sum(int(octets) // 2 for octets in found)
-    return total
+    return sum(sum(variables_of(source, law, more)) for source in sources_with_variables())
 
 
 @functools.lru_cache(maxsize=None)
