@@ -151,9 +151,10 @@ TEST(GainsCli, GenerateWritesTablesThatCheck)
 
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_EQ(made.err, "");
-    EXPECT_EQ(made.out,
-              "servo_200w_pid: certified; wrote gain_tables.h, gain_tables.c and board_config.c to " +
-                  out + "\n");
+    EXPECT_EQ(
+        made.out,
+        "servo_200w_pid: certified; wrote gain_tables.h, gain_tables.c and board_config.c to " +
+            out + "\n");
     EXPECT_EQ(support::names_in(out),
               (std::set<std::string>{"board_config.c", "gain_tables.c", "gain_tables.h"}));
     EXPECT_EQ(checked.exit_code, 0) << checked.err;

@@ -101,7 +101,7 @@ TEST(SensorTrim, OffsetsAndGainsLeaveTheRippleOfGoodSensors)
         for (const double speed : {100.0, 200.0, 300.0, 500.0, -300.0}) {
             const double sign = speed < 0.0 ? -1.0 : 1.0;
             const Case   c{speed, sign * load, 0.05, 0.0, 1.0, 1.02};
-            const Result r = run(c, support::swept<std::size_t>(10, 1));
+            const Result r = run(c, support::swept<std::size_t>(10, 1, 2));
             EXPECT_LE(r.ripple_e_radps, wanted_e_radps) << speed << " " << load;
             EXPECT_NEAR(r.zero_a_A, 0.05, 0.003) << speed << " " << load;
             EXPECT_NEAR(r.zero_b_A, 0.0, 0.003) << speed << " " << load;
@@ -113,7 +113,7 @@ TEST(SensorTrim, EachErrorAlone)
 {
     for (const Case &c : {Case{300.0, 0.75, 0.0, -0.08}, Case{300.0, 1.5, 0.0, 0.0, 1.02},
                           Case{300.0, 1.5, 0.0, 0.0, 0.97}, Case{400.0, 0.5, -0.1, 0.1}}) {
-        const Result r = run(c, support::swept<std::size_t>(3, 1));
+        const Result r = run(c, support::swept<std::size_t>(3, 1, 1));
         EXPECT_LE(r.ripple_e_radps, wanted_e_radps);
         EXPECT_NEAR(r.zero_a_A, c.offset_a_A, 0.003);
         EXPECT_NEAR(r.zero_b_A, c.offset_b_A, 0.003);
@@ -133,7 +133,7 @@ TEST(SensorTrim, GoodSensorsAreBelieved)
           "[inverter]\nmodel = \"switched\"\nswitch_drop_V = 1.5\ndiode_drop_V = 1.0\n"}) {
         for (const double speed : {100.0, 300.0, 500.0}) {
             const Result r =
-                run({speed, 0.75, 0.0, 0.0, 1.0, 1.0, more}, support::swept<std::size_t>(3, 1));
+                run({speed, 0.75, 0.0, 0.0, 1.0, 1.0, more}, support::swept<std::size_t>(3, 1, 1));
             EXPECT_LE(std::abs(r.zero_a_A), 0.006) << more << speed;
             EXPECT_LE(std::abs(r.zero_b_A), 0.006) << more << speed;
         }
@@ -147,7 +147,7 @@ TEST(SensorTrim, ALoadThatSwingsWithTheAngleIsNoOffset)
         const std::string more = fmt::format("[load_sine]\namplitude_Nm = 0.2\nfrequency_Hz = {}\n",
                                              speed / 6.283185307);
         const Result      r =
-            run({speed, 0.75, 0.0, 0.0, 1.0, 1.0, more}, support::swept<std::size_t>(10, 1));
+            run({speed, 0.75, 0.0, 0.0, 1.0, 1.0, more}, support::swept<std::size_t>(10, 1, 2));
         EXPECT_LE(std::abs(r.zero_a_A), 0.010) << speed;
         EXPECT_LE(std::abs(r.zero_b_A), 0.010) << speed;
     }
@@ -161,8 +161,8 @@ TEST(SensorTrim, WithWrongInductancesItLearnsRightlyOrNothing)
             const std::string more =
                 fmt::format("[plant_scale]\nd_axis_inductance_H = {}\nq_axis_inductance_H = {}\n",
                             scale, scale);
-            const Result r =
-                run({speed, 0.75, 0.05, -0.03, 1.0, 1.0, more}, support::swept<std::size_t>(3, 1));
+            const Result r = run({speed, 0.75, 0.05, -0.03, 1.0, 1.0, more},
+                                 support::swept<std::size_t>(3, 1, 1));
             EXPECT_GE(r.zero_a_A, -0.003) << scale << " " << speed;
             EXPECT_LE(r.zero_a_A, 0.06) << scale << " " << speed;
             EXPECT_LE(r.zero_b_A, 0.003) << scale << " " << speed;

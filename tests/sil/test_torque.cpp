@@ -78,7 +78,7 @@ void expect_steps(const Rate &rate)
 {
     const std::array<double, 3> discs[] = {{0.14, 0.14, 0.02}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}};
     for (const auto &[quadrature, duty, jitter] : discs) {
-        for (int seed = 1; seed <= support::swept(rate.seeds, 3); seed++) {
+        for (int seed = 1; seed <= support::swept(rate.seeds, 3, 6); seed++) {
             sdre::Scenario s                            = scenario(rate.drive);
             s.seed                                      = static_cast<std::uint64_t>(seed);
             s.sensors.encoder_disc.quadrature_error_cnt = quadrature;

@@ -146,7 +146,7 @@ TEST(Verify, BandIsWideEnoughForWholeProgrammes)
 {
     const Expectation few(drive(), programme(), counts({100, 10, 100}));
     const Controller  controller = controller_of(drive());
-    const int         machines   = swept(100, 15);
+    const int         machines   = swept(100, 15, 30);
     int               outside    = 0;
     for (int k = 0; k < machines; k++) {
         const std::uint64_t seed = 8000 + static_cast<std::uint64_t>(k);
@@ -159,7 +159,7 @@ TEST(Verify, BandIsWideEnoughForWholeProgrammes)
 
 TEST(Verify, EstimateIsTheMachine)
 {
-    for (std::uint64_t seed = 7000; seed < swept<std::uint64_t>(7010, 7002); seed++) {
+    for (std::uint64_t seed = 7000; seed < swept<std::uint64_t>(7010, 7002, 7004); seed++) {
         Difference x             = draw_difference(seed);
         x[seed % believed_count] = seed % 2 == 0 ? 1.5 : 0.5;
         const Judgement j        = judged(machine_on_bench(drive(), x, seed));

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Sweeps take many machines or faults through the same code. `./dev test sanitized` sets SDRE_SWEEP=few: a sanitizer sees in
-/// a few of them what it would see in all. Every other run takes the whole sweep. The assertions are the same.
+/// Sweeps take many machines or faults through the same code. The environment variable SDRE_SWEEP says how many of them:
+///
+///     not set   all: `./dev test all`, and a test by itself
+///     some      `./dev test`, where a sweep says what some are; else all
+///     few       `./dev test sanitized`: a sanitizer sees in a few of them what it would see in all
+///
+/// The assertions are the same.
 #pragma once
 
 #include <cstdlib>
@@ -9,27 +14,32 @@
 
 namespace support {
 
-inline bool few_of_a_sweep()
+inline bool sweep_is(std::string_view size)
 {
     const char *const text = std::getenv("SDRE_SWEEP");
-    return text != nullptr && std::string_view(text) == "few";
+    return text != nullptr && size == text;
 }
 
-/// `whole`, or `few` in a sanitized run.
+template <typename Value> Value swept(Value whole, Value few, Value some)
+{
+    return sweep_is("few") ? few : sweep_is("some") ? some : whole;
+}
+
 template <typename Value> Value swept(Value whole, Value few)
 {
-    return few_of_a_sweep() ? few : whole;
+    return swept(whole, few, whole);
 }
 
-/// All elements, or each `step`-th of them in a sanitized run.
+/// All elements, or each `few`-th of them in a sanitized run, and each `some`-th in that of the gate.
 template <typename Element>
-std::vector<Element> swept_each(const std::vector<Element> &all, std::size_t step)
+std::vector<Element> swept_each(const std::vector<Element> &all, std::size_t few,
+                                std::size_t some = 1)
 {
-    std::vector<Element> some;
-    for (std::size_t k = 0; k < all.size(); k += swept<std::size_t>(1, step)) {
-        some.push_back(all[k]);
+    std::vector<Element> taken;
+    for (std::size_t k = 0; k < all.size(); k += swept<std::size_t>(1, few, some)) {
+        taken.push_back(all[k]);
     }
-    return some;
+    return taken;
 }
 
 } // namespace support
