@@ -4,17 +4,17 @@
 /* Means "no limit": it exceeds every limit of the drive, which then acts. */
 #define ANY_LIMIT 1.0e9f
 
-static float limit_of(float asked)
+static float limit_or_any(float asked)
 {
     return (asked > 0.0f) ? asked : ANY_LIMIT;
 }
 
 static position_profile_t profile_of(const app_objects_t *o)
 {
-    const position_profile_t p = {.speed_e_radps  = limit_of(o->profile_e_radps),
-                                  .accel_e_radps2 = limit_of(o->accel_e_radps2),
-                                  .decel_e_radps2 = limit_of(o->decel_e_radps2),
-                                  .jerk_e_radps3  = limit_of(o->jerk_e_radps3)};
+    const position_profile_t p = {.speed_e_radps  = limit_or_any(o->profile_e_radps),
+                                  .accel_e_radps2 = limit_or_any(o->accel_e_radps2),
+                                  .decel_e_radps2 = limit_or_any(o->decel_e_radps2),
+                                  .jerk_e_radps3  = limit_or_any(o->jerk_e_radps3)};
     return p;
 }
 
@@ -36,7 +36,7 @@ static void begin(app_setpoint_t *s, const app_setpoint_one_t *one, const app_po
     s->target = app_position_at(position, one->target_cnt);
 }
 
-static app_setpoint_one_t asked_for(const app_setpoint_t *s, const app_objects_t *o)
+static app_setpoint_one_t setpoint_asked(const app_setpoint_t *s, const app_objects_t *o)
 {
     const app_setpoint_one_t *before   = s->waits ? &s->next : &s->now;
     const bool                relative = app_control_has(o->controlword, APP_CONTROL_RELATIVE);
@@ -62,11 +62,11 @@ void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_posi
         begin(s, &s->next, position);
     }
     if (rose && ((arrived && !follows) || app_control_has(o->controlword, APP_CONTROL_AT_ONCE))) {
-        const app_setpoint_one_t one = asked_for(s, o);
+        const app_setpoint_one_t one = setpoint_asked(s, o);
         begin(s, &one, position);
         s->acknowledged = true;
     } else if (rose && !s->waits) {
-        s->next         = asked_for(s, o);
+        s->next         = setpoint_asked(s, o);
         s->waits        = true;
         s->acknowledged = true;
     } else {

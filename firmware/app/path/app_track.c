@@ -21,7 +21,7 @@
 #define ON_CUBIC 2U /* predicted set-points in a row */
 
 /* One more, at most so many. */
-static uint16_t counted(uint16_t n, uint16_t most)
+static uint16_t one_more(uint16_t n, uint16_t most)
 {
     return (n < most) ? (uint16_t)(n + 1U) : n;
 }
@@ -82,7 +82,7 @@ void app_track_predict(app_track_t *t, const app_track_limits_t *l)
     step_cubic(t);
     limit(t, l);
     t->age_s -= l->period_s;
-    t->missed = counted(t->missed, UINT16_MAX);
+    t->missed = one_more(t->missed, UINT16_MAX);
 }
 
 /* EQ-APP-TRACK-4 */
@@ -142,8 +142,8 @@ static void correct_line(app_track_t *t, float off_rad, float periods, float p)
 }
 
 /* A motion with a gap is a line: what bends it would be multiplied with each further one. */
-static void correct(app_track_t *t, float off_rad, const app_track_point_t *point,
-                    const app_track_limits_t *l, float periods)
+static void correct_motion(app_track_t *t, float off_rad, const app_track_point_t *point,
+                           const app_track_limits_t *l, float periods)
 {
     const bool  line = t->regular < REGULAR;
     const float p    = pole(periods * l->period_s);
@@ -171,7 +171,7 @@ static uint16_t count_points(app_track_t *t, const app_track_limits_t *l)
     if ((t->missed == 0U) || (t->age_s > (0.5f * period_s))) {
         step_cubic(t);
         t->age_s -= period_s;
-        periods = counted(periods, UINT16_MAX);
+        periods = one_more(periods, UINT16_MAX);
     }
     const float share =
         (t->taken < APP_TRACK_KNOWN) ? fpu_inverse((float)t->taken + 1.0f) : CLOCK_SHARE;
@@ -187,7 +187,7 @@ void app_track_take(app_track_t *t, const app_track_point_t *point, const app_tr
 
     if (t->taken > 0U) {
         periods    = count_points(t, l);
-        t->regular = (periods > 1U) ? 0U : counted(t->regular, REGULAR);
+        t->regular = (periods > 1U) ? 0U : one_more(t->regular, REGULAR);
         off_rad    = position_way_rad(&t->at, &point->at);
     }
     if ((t->taken == 0U) || !base_within(off_rad, STEP_SHARE * l->period_s * l->speed_e_radps)) {
@@ -199,8 +199,8 @@ void app_track_take(app_track_t *t, const app_track_point_t *point, const app_tr
         off_rad  = 0.0f;
         periods  = 1U;
     }
-    correct(t, off_rad, point, l, (float)periods);
+    correct_motion(t, off_rad, point, l, (float)periods);
     limit(t, l);
     t->missed = 0U;
-    t->taken  = counted(t->taken, APP_TRACK_KNOWN);
+    t->taken  = one_more(t->taken, APP_TRACK_KNOWN);
 }
