@@ -93,6 +93,7 @@ def follow():
         if str(name) not in LEFT_OUT:
             write(COPY / name, (HERE / "files" / name).read_text(encoding="utf-8"))
     shipped = (ROOT / "firmware/config/drives/ipmsm_390w.toml").read_text(encoding="utf-8")
+    shipped = re.sub(r"\n(#[^\n]*\n)*\[torque\]\n[^[]*", "\n", shipped)  # optional: step 8
     named = shipped.replace('name = "ipmsm_390w"', 'name = "noc_slow"\nlaw = "noc_slow"')
     write(COPY / DRIVE, named + "\n[filter]\nshare = 0.015625\n")
     step = (ROOT / SCENARIO).read_text(encoding="utf-8").replace("ipmsm_390w.toml", "noc_slow.toml")
