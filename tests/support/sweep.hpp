@@ -30,13 +30,12 @@ template <typename Value> Value swept(Value whole, Value few)
     return swept(whole, few, whole);
 }
 
-/// All elements, or each `few`-th of them in a sanitized run, and each `some`-th in that of the gate.
+/// All elements, or each `step`-th of them in a sanitized run.
 template <typename Element>
-std::vector<Element> swept_each(const std::vector<Element> &all, std::size_t few,
-                                std::size_t some = 1)
+std::vector<Element> swept_each(const std::vector<Element> &all, std::size_t step)
 {
     std::vector<Element> taken;
-    for (std::size_t k = 0; k < all.size(); k += swept<std::size_t>(1, few, some)) {
+    for (std::size_t k = 0; k < all.size(); k += swept<std::size_t>(1, step)) {
         taken.push_back(all[k]);
     }
     return taken;
